@@ -97,7 +97,7 @@ static koksma_status make_lane_materials(koksma__frame *f)
     koksma__lane_materials *t = &f->lane_materials;
     float **const columns[] = {&t->albedo[0][0],  &t->albedo[0][1],  &t->albedo[0][2],  &t->albedo[1][0],
                                &t->albedo[1][1],  &t->albedo[1][2],  &t->parameters[0], &t->parameters[1],
-                               &t->parameters[2], &t->parameters[3], &t->diffuse,       &t->u[0],
+                               &t->parameters[2], &t->parameters[3], &t->derived,       &t->u[0],
                                &t->u[1],          &t->u[2],          &t->v[0],          &t->v[1],
                                &t->v[2]};
     const size_t n_columns = sizeof columns / sizeof *columns;

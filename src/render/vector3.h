@@ -131,6 +131,11 @@ KOKSMA__INLINE float koksma__v3_dot(koksma__v3 a, koksma__v3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
+KOKSMA__INLINE float koksma__v3_luminance(koksma__v3 a)
+{
+    return 0.2126f * a.x + 0.7152f * a.y + 0.0722f * a.z;
+}
+
 KOKSMA__INLINE koksma__v3 koksma__v3_scale(koksma__v3 a, float s)
 {
     return (koksma__v3){s * a.x, s * a.y, s * a.z};
@@ -219,7 +224,7 @@ static inline float koksma__max3(const float v[3])
 
 static inline float koksma__luminance3(const float v[3])
 {
-    return 0.2126f * v[0] + 0.7152f * v[1] + 0.0722f * v[2];
+    return koksma__v3_luminance(koksma__v3_of(v));
 }
 
 /* The mirror image of the direction w (towards the eye) at the unit normal n. */

@@ -17,7 +17,7 @@
 #include "render/materials/lobes.h"
 
 /* The reflectance F0 at normal incidence has three numbers (red, green, blue). prepare() sets these derived numbers;
-   images can change them and the roughness. */
+   images can change them and the roughness. koksma__coat of lobes.h has the formulas. */
 enum { F0, ROUGHNESS = 3, METALLIC, IOR };
 
 static float specular(const koksma__shading_material *m)
@@ -44,72 +44,47 @@ static void texture(const koksma__shading_material *m, const float factors[2], f
 static void prepare(koksma__shading_material *m)
 {
     float again[3];
+    m->derived = specular(m);
     divide(m, m->values[METALLIC], m->albedo[0], m->values + F0);
     divide(m, m->values[METALLIC], m->albedo[1], again);
 }
 
-static const float *numbers_of(const koksma__surface *s)
+static koksma__coat coat_of(const koksma__surface *s, unsigned lobes)
 {
-    return s->local ? s->local : s->material->values;
-}
-
-/* The fraction of the light that the facets transmit to the diffuse part, on entering or leaving. */
-static float passed(const koksma__surface *s, float cosine)
-{
-    return 1 - koksma__schlick(specular(s->material), cosine);
-}
-
-/* The probability of sampling the diffuse lobe. */
-static float share(const koksma__surface *s, unsigned lobes)
-{
-    const bool diffuse = lobes & KOKSMA__LOBE_DIFFUSE, glossy = lobes & KOKSMA__LOBE_GLOSSY;
-    const float cosine = koksma__dot3(s->n, s->out), albedo = koksma__luminance3(s->albedo);
-    const float below = albedo * passed(s, cosine);
-    const float above = koksma__schlick(koksma__luminance3(numbers_of(s) + F0), cosine);
-    const float part = albedo > 0 ? fminf(fmaxf(below / (below + above), 0.1f), 0.9f) : 0;
-    return diffuse && glossy ? part : diffuse ? 1 : 0;
+    const float *numbers = s->local ? s->local : s->material->values;
+    return koksma__coat_of((koksma__coat){.n = koksma__v3_of(s->n),
+                                          .out = koksma__v3_of(s->out),
+                                          .albedo = koksma__v3_of(s->albedo),
+                                          .reflectance = koksma__v3_of(numbers + F0),
+                                          .roughness = numbers[ROUGHNESS],
+                                          .coat = s->material->derived,
+                                          .diffuse = lobes & KOKSMA__LOBE_DIFFUSE ? 1 : 0,
+                                          .glossy = lobes & KOKSMA__LOBE_GLOSSY ? 1 : 0});
 }
 
 static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
 {
-    const float *numbers = numbers_of(s), to = koksma__dot3(s->n, w), from = koksma__dot3(s->n, s->out);
-    const float part = share(s, lobes);
-    float pdf = 0;
-    if (!(to > 0)) {
-        return 0;
-    }
-    if (lobes & KOKSMA__LOBE_DIFFUSE) {
-        const float lambert = koksma__lambert_pdf(to), rest = passed(s, from) * passed(s, to);
-        pdf += part * lambert;
-        for (int k = 0; k < 3; k++) {
-            value_out[k] += s->albedo[k] * lambert * rest;
-        }
-    }
-    if (lobes & KOKSMA__LOBE_GLOSSY) {
-        const koksma__facets facets =
-            koksma__facets_of(koksma__v3_of(s->n), koksma__v3_of(s->out), numbers[ROUGHNESS]);
-        const koksma__facet_terms t = koksma__facet_terms_of(&facets, koksma__v3_of(w));
-        pdf += (1 - part) * t.pdf;
-        for (int k = 0; k < 3; k++) {
-            value_out[k] += t.pdf * t.ratio * koksma__schlick(numbers[F0 + k], t.at_facet);
-        }
-    }
+    const koksma__coat c = coat_of(s, lobes);
+    koksma__v3 found;
+    const float pdf = koksma__coat_value(&c, koksma__v3_of(w), &found);
+    value_out[0] += found.x;
+    value_out[1] += found.y;
+    value_out[2] += found.z;
     return pdf;
 }
 
 static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
 {
-    lobes &= KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY;
+    const koksma__coat c = coat_of(s, lobes);
     float all[3] = {0, 0, 0};
-    if (!lobes) {
+    if (!(c.diffuse + c.glossy > 0)) {
         return false;
     }
-    if (choice < share(s, lobes)) {
+    if (choice < c.share) {
         koksma__cosine_direction(s->n, u, out->w);
         out->lobe = KOKSMA__LOBE_DIFFUSE;
     } else {
-        const koksma__facets facets =
-            koksma__facets_of(koksma__v3_of(s->n), koksma__v3_of(s->out), numbers_of(s)[ROUGHNESS]);
+        const koksma__facets facets = koksma__facets_of(c.n, c.out, c.roughness);
         koksma__v3_to(koksma__facet_direction(&facets, u[0], u[1]), out->w);
         out->lobe = KOKSMA__LOBE_GLOSSY;
     }
@@ -134,6 +109,7 @@ const koksma__bsdf koksma__bsdf_principled = {
     .lobes = KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY,
     .diffuse = KOKSMA__ALBEDO | KOKSMA__IMAGE,
     .takes_choice = true,
+    .form = KOKSMA__FORM_COATED,
     .reciprocal = true,
     .prepare = prepare,
     .value = value,

@@ -119,4 +119,44 @@ KOKSMA__INLINE koksma__v3 koksma__facet_direction(const koksma__facets *f, float
     return koksma__v3_mirror(f->out, koksma__v3_about(n, h.x, h.y, h.z));
 }
 
+/* ---- Facets over Lambert ------------------------------------------------------------------------------------- */
+
+/* A surface of bsdf_principled.c seen from `out`; diffuse, glossy: 1 if the lobe is requested, otherwise 0. */
+typedef struct koksma__coat {
+    koksma__v3 n, out, albedo, reflectance; /* reflectance: F0 of the facets */
+    float roughness, coat;                  /* coat: F0 of the coat of the diffuse part */
+    float diffuse, glossy, share;           /* share: the probability of sampling the diffuse lobe */
+} koksma__coat;
+
+/* The fraction of the light that the facets transmit to the diffuse part, on entering or leaving. */
+KOKSMA__INLINE float koksma__coat_passes(const koksma__coat *c, float cosine)
+{
+    return 1 - koksma__schlick(c->coat, cosine);
+}
+
+/* Sets the share. */
+KOKSMA__INLINE koksma__coat koksma__coat_of(koksma__coat c)
+{
+    const float cosine = koksma__v3_dot(c.n, c.out), albedo = koksma__v3_luminance(c.albedo);
+    const float below = albedo * koksma__coat_passes(&c, cosine);
+    const float above = koksma__schlick(koksma__v3_luminance(c.reflectance), cosine);
+    const float part = below / (below + above), least = part > 0.1f ? part : 0.1f, most = least < 0.9f ? least : 0.9f;
+    c.share = c.glossy > 0 ? c.diffuse * (albedo > 0 ? most : 0) : c.diffuse;
+    return c;
+}
+
+/* Returns the density of the direction w, and sets the value times the cosine. */
+KOKSMA__INLINE float koksma__coat_value(const koksma__coat *c, koksma__v3 w, koksma__v3 *value)
+{
+    const koksma__facets facets = koksma__facets_of(c->n, c->out, c->roughness);
+    const koksma__facet_terms t = koksma__facet_terms_of(&facets, w);
+    const float to = koksma__v3_dot(c->n, w), lambert = c->diffuse * koksma__lambert_pdf(to);
+    const float rest = koksma__coat_passes(c, koksma__v3_dot(c->n, c->out)) * koksma__coat_passes(c, to);
+    const float pdf = c->glossy > 0 ? t.pdf : 0, scale = pdf * t.ratio;
+    *value = (koksma__v3){c->albedo.x * lambert * rest + scale * koksma__schlick(c->reflectance.x, t.at_facet),
+                          c->albedo.y * lambert * rest + scale * koksma__schlick(c->reflectance.y, t.at_facet),
+                          c->albedo.z * lambert * rest + scale * koksma__schlick(c->reflectance.z, t.at_facet)};
+    return c->share * lambert + (1 - c->share) * pdf;
+}
+
 #endif

@@ -28,6 +28,7 @@ typedef enum koksma__material_form {
     KOKSMA__FORM_LAMBERT, /* albedo */
     KOKSMA__FORM_LOBES,   /* Lambert and a cosine lobe; `derived` is the fraction of directions that Lambert gets */
     KOKSMA__FORM_FACETS,  /* lobes.h */
+    KOKSMA__FORM_COATED,  /* facets over Lambert (bsdf_principled.c); `derived` is the reflectance of the coat */
     KOKSMA__N_FORMS
 } koksma__material_form;
 

@@ -28,6 +28,10 @@ static void find_squares(const koksma__lane_materials *t, const koksma__hits *re
     }
 }
 
+/* The forms that read parameters, and `derived` */
+#define DERIVED (1 << KOKSMA__FORM_LOBES | 1 << KOKSMA__FORM_COATED)
+#define NUMBERED (DERIVED | 1 << KOKSMA__FORM_FACETS)
+
 void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, struct koksma__surfaces *restrict s)
 {
     const koksma__lane_materials *t = s->table;
@@ -64,13 +68,13 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
             s->albedo[k][i] = column[odd[i]];
         }
     }
-    for (int k = 0; traits & (1 << KOKSMA__FORM_LOBES | 1 << KOKSMA__FORM_FACETS) && k < 4; k++) {
+    for (int k = 0; traits & NUMBERED && k < 4; k++) {
         for (int i = 0; i < STEP(n); i++) {
             s->parameters[k][i] = t->parameters[k][at[i]];
         }
     }
-    for (int i = 0; traits & 1 << KOKSMA__FORM_LOBES && i < STEP(n); i++) {
-        s->diffuse[i] = t->diffuse[at[i]];
+    for (int i = 0; traits & DERIVED && i < STEP(n); i++) {
+        s->derived[i] = t->derived[at[i]];
     }
 }
 
@@ -95,7 +99,7 @@ static void lambert_values(const koksma__surfaces *restrict s, const koksma__lan
 }
 
 /* The requested lobes as factors 0 or 1, and the coefficients of the probability of sampling Lambert's lobe: fixed +
-   shared * koksma__surfaces.diffuse. */
+   shared * koksma__surfaces.derived. */
 typedef struct lobe_shares {
     float diffuse, glossy, fixed, shared;
 } lobe_shares;
@@ -117,7 +121,7 @@ static void lobe_values(const koksma__surfaces *restrict s, const koksma__lanes 
         const koksma__v3 normal = NORMAL(h, i), direction = AT(w, i);
         const float lambert = shares.diffuse * koksma__lambert_pdf(koksma__v3_dot(normal, direction));
         const float lobe = shares.glossy * koksma__lobe_pdf(normal, AT(s->out, i), s->parameters[3][i], direction);
-        const float part = shares.fixed + shares.shared * s->diffuse[i];
+        const float part = shares.fixed + shares.shared * s->derived[i];
         out->value[0][i] += mine ? s->albedo[0][i] * lambert + s->parameters[0][i] * lobe : 0;
         out->value[1][i] += mine ? s->albedo[1][i] * lambert + s->parameters[1][i] * lobe : 0;
         out->value[2][i] += mine ? s->albedo[2][i] * lambert + s->parameters[2][i] * lobe : 0;
@@ -139,6 +143,35 @@ static void facet_values(const koksma__surfaces *restrict s, const koksma__lanes
         out->value[1][i] += mine ? scale * koksma__schlick(s->parameters[1][i], t.at_facet) : 0;
         out->value[2][i] += mine ? scale * koksma__schlick(s->parameters[2][i], t.at_facet) : 0;
         out->pdf[i] += mine ? t.pdf : 0;
+    }
+}
+
+INLINE koksma__coat coat_at(const koksma__surfaces *restrict s, lobe_shares shares, int i)
+{
+    return koksma__coat_of((koksma__coat){.n = NORMAL(s->hits, i),
+                                          .out = AT(s->out, i),
+                                          .albedo = AT(s->albedo, i),
+                                          .reflectance = AT(s->parameters, i),
+                                          .roughness = s->parameters[3][i],
+                                          .coat = s->derived[i],
+                                          .diffuse = shares.diffuse,
+                                          .glossy = shares.glossy});
+}
+
+static void coated_values(const koksma__surfaces *restrict s, const koksma__lanes *restrict w, unsigned lobes, int n,
+                          koksma__bsdf_values *restrict out)
+{
+    const lobe_shares shares = shares_of(lobes);
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const int mine = s->form[i] == KOKSMA__FORM_COATED;
+        const koksma__coat c = coat_at(s, shares, i);
+        koksma__v3 value;
+        const float pdf = koksma__coat_value(&c, AT(w, i), &value);
+        out->value[0][i] += mine ? value.x : 0;
+        out->value[1][i] += mine ? value.y : 0;
+        out->value[2][i] += mine ? value.z : 0;
+        out->pdf[i] += mine ? pdf : 0;
     }
 }
 
@@ -173,6 +206,9 @@ static void values(const koksma__surfaces *s, const koksma__lanes *w, unsigned l
     }
     if (s->traits & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
         facet_values(s, w, n, out);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_COATED) {
+        coated_values(s, w, lobes, n, out);
     }
     if (s->traits & 1u << KOKSMA__FORM_RAYS) {
         ray_values(s, w, lobes, n, out);
@@ -269,7 +305,7 @@ static void lobe_directions(const koksma__surfaces *restrict s, unsigned lobes, 
     const lobe_shares shares = shares_of(lobes);
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const float part = shares.fixed + shares.shared * s->diffuse[i], exponent = s->parameters[3][i];
+        const float part = shares.fixed + shares.shared * s->derived[i], exponent = s->parameters[3][i];
         const koksma__v3 normal = NORMAL(h, i), out = AT(s->out, i);
         const koksma__v3 lambert_w = koksma__v3_cosine_direction(normal, u[0][i], u[1][i]);
         const koksma__v3 lobe_w = koksma__lobe_direction(normal, out, exponent, u[0][i], u[1][i]);
@@ -299,6 +335,26 @@ static void facet_directions(const koksma__surfaces *restrict s, const koksma__l
                                    t.ratio * koksma__schlick(s->parameters[1][i], t.at_facet),
                                    t.ratio * koksma__schlick(s->parameters[2][i], t.at_facet)};
         keep(to, i, s->form[i] == KOKSMA__FORM_FACETS, w, weight, t.pdf, t.pdf > 0);
+    }
+}
+
+static void coated_directions(const koksma__surfaces *restrict s, unsigned lobes, const koksma__lanes *restrict u,
+                              int n, koksma__directions *restrict to)
+{
+    const lobe_shares shares = shares_of(lobes);
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        const koksma__coat c = coat_at(s, shares, i);
+        const koksma__facets facets = koksma__facets_of(c.n, c.out, c.roughness);
+        const koksma__v3 diffuse = koksma__v3_cosine_direction(c.n, u[0][i], u[1][i]);
+        const koksma__v3 glossy = koksma__facet_direction(&facets, u[0][i], u[1][i]);
+        const int first = u[2][i] < c.share;
+        const koksma__v3 w = {first ? diffuse.x : glossy.x, first ? diffuse.y : glossy.y,
+                              first ? diffuse.z : glossy.z};
+        koksma__v3 value;
+        const float pdf = koksma__coat_value(&c, w, &value), by = pdf > 0 ? pdf : 1;
+        keep(to, i, s->form[i] == KOKSMA__FORM_COATED, w, (koksma__v3){value.x / by, value.y / by, value.z / by}, pdf,
+             pdf > 0);
     }
 }
 
@@ -338,6 +394,9 @@ void BATCH_NAME(scatter)(const struct koksma__surfaces *s, unsigned lobes, const
     }
     if (s->traits & 1u << KOKSMA__FORM_FACETS && lobes & KOKSMA__LOBE_GLOSSY) {
         facet_directions(s, u, n, to);
+    }
+    if (s->traits & 1u << KOKSMA__FORM_COATED && lobes & (KOKSMA__LOBE_DIFFUSE | KOKSMA__LOBE_GLOSSY)) {
+        coated_directions(s, lobes, u, n, to);
     }
     if (s->traits & 1u << KOKSMA__FORM_RAYS) {
         ray_directions(s, lobes, u, n, to);

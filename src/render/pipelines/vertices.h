@@ -24,7 +24,7 @@ enum {
    means no material. */
 typedef struct koksma__lane_materials {
     int32_t *form, *traits;
-    float *albedo[2][3], *parameters[4], *diffuse;
+    float *albedo[2][3], *parameters[4], *derived;
     /* The square of a checker at (u, v) has column floor(u[0] u + u[1] v + u[2]) and row floor(v[0] u + v[1] v +
        v[2]). */
     float *u[3], *v[3];
@@ -39,8 +39,8 @@ typedef struct koksma__surfaces {
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];
-    _Alignas(64) koksma__lanes parameters[4]; /* parameters of materials of the forms LOBES and FACETS */
-    _Alignas(64) koksma__lanes diffuse;       /* koksma__shading_material.derived of materials of the form LOBES */
+    _Alignas(64) koksma__lanes parameters[4]; /* those of materials of the forms LOBES, FACETS and COATED */
+    _Alignas(64) koksma__lanes derived;       /* koksma__shading_material.derived of the forms LOBES and COATED */
     /* results of the BSDF's texture(), in the lanes whose material has images and whose BSDF has texture() */
     float local[KOKSMA__BLOCK][KOKSMA__LOCAL];
 } koksma__surfaces;

@@ -322,6 +322,9 @@ static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
             koksma__texture(surface->image, half ? &whole : &surface->mapping, at[0], at[1], 1, factors);
         }
         m->bsdf->texture(m, factors + 1, albedo, v->surfaces.local[i]);
+        for (int k = 0; k < KOKSMA__LOCAL; k++) {
+            v->surfaces.parameters[k][i] = v->surfaces.local[i][k];
+        }
     }
     for (int k = 0; k < 3; k++) {
         v->surfaces.albedo[k][i] = albedo[k];
