@@ -431,10 +431,10 @@ async function tour(browser) {
       const says = () => page.locator("#tour p").allTextContents();
       if (asked) {
         check(await reached(asked), `${width} px, step ${step}: ${asked} can't be reached`);
-        check((await says())[2].includes(step === 4 ? "16 of 16 cells of 4 × 4" : "B: 16 of 16 cells"), `${width} px, step ${step} says ${await says()}`);
+        check((await says())[2].includes(step === 4 ? "16 of 16 cells of 4 × 4" : "B, Sobol’: 16 of 16 cells"), `${width} px, step ${step} says ${await says()}`);
         if (step === 4) await choose(page, asked, "rooks");
         else await page.locator(asked).fill("4").then(() => idle(page));
-        check((await says())[2].includes(step === 4 ? "of 32 columns and rows" : "B: 16 of 16 cells of 16 × 1"), `${width} px, step ${step} says, after a change, ${await says()}`);
+        check((await says())[2].includes(step === 4 ? "of 32 columns and rows" : "B, Sobol’: 16 of 16 cells of 16 × 1"), `${width} px, step ${step} says, after a change, ${await says()}`);
         await page.locator("#tour-title").focus();
       }
       states.add(await page.evaluate(() => koksmaExplorer.hash()));
