@@ -186,3 +186,65 @@ TEST_CASE(a_triangle_without_area_is_no_face)
     assert_true(
         !koksma__face_of((const float[]){1, 2, 3}, (const float[]){2, 4, 6}, (const float[]){3, 6, 9}, &face));
 }
+
+/* A bundle of part of the triangles changes no bit, whatever stands before and behind it. */
+TEST_CASE(bundled_triangles_are_met_alike)
+{
+    static world w, bundled;
+    int met = 0, dark = 0;
+    for (int round = 0; round < test_repeats(200, 10); round++) {
+        const double offset = round % 3 == 2 ? 1000 : 0;
+        const size_t first = (size_t)round % 5, end = first + KOKSMA__BUNDLED_FACES + (size_t)round % 7;
+        koksma__batch_bundle box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, first, end};
+        w.faces = (koksma__batch_faces){0};
+        for (size_t k = 0; k < 20; k++) {
+            const bool in = k >= first && k < end;
+            float c[3][3];
+            for (int i = 0; i < 9; i++) {
+                c[i / 3][i % 3] = (float)(offset + (in ? uniform(-0.5, 0.8) : uniform(-2, 2)));
+                box.low[i % 3] = in ? fminf(box.low[i % 3], c[i / 3][i % 3]) : box.low[i % 3];
+                box.high[i % 3] = in ? fmaxf(box.high[i % 3], c[i / 3][i % 3]) : box.high[i % 3];
+            }
+            add_face(&w, c[0], c[1], c[2]);
+        }
+        aim(&w, 2);
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            float *const o[3] = {&w.rays.ox[i], &w.rays.oy[i], &w.rays.oz[i]};
+            float *const d[3] = {&w.rays.dx[i], &w.rays.dy[i], &w.rays.dz[i]};
+            const int face = (int)uniform(0, 20), corner = (int)uniform(0, 3);
+            for (int k = 0; k < 3; k++) { /* some to corners, from anywhere */
+                *o[k] += (float)offset;
+                *d[k] = i % 2 ? *d[k] : (float)w.corners[face][corner][k] - *o[k];
+            }
+            w.hits.px[i] = *o[0];
+            w.hits.py[i] = *o[1];
+            w.hits.pz[i] = *o[2];
+            w.shadows.light[i] = i % 7 ? 1 : 0;
+        }
+        bundled = w;
+        bundled.faces.n_bundles = 1;
+        bundled.faces.bundles[0] = box;
+        bundled.faces.size = (float)(3 * (offset + 1));
+        for (int k = 0; k < 4; k++) {
+            const koksma__batch_table *batch = koksma__batch_find(isas[k]);
+            if (!batch) {
+                continue;
+            }
+            const int count = trace(batch, &w);
+            assert_int_equal(trace(batch, &bundled), count);
+            met += count;
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                dark += w.shadows.light[i] == 0;
+                assert_int_equal(w.on.primitive[i], bundled.on.primitive[i]);
+                assert_true(w.shadows.light[i] == bundled.shadows.light[i]);
+                if (w.on.primitive[i] >= 0) {
+                    assert_int_equal(w.on.triangle[i], bundled.on.triangle[i]);
+                    assert_memory_equal(&w.on.t[i], &bundled.on.t[i], sizeof(float));
+                    assert_memory_equal(&w.on.u[i], &bundled.on.u[i], sizeof(float));
+                    assert_memory_equal(&w.on.v[i], &bundled.on.v[i], sizeof(float));
+                }
+            }
+        }
+    }
+    assert_true(met > test_repeats(10000, 500) && dark > test_repeats(10000, 500));
+}

@@ -18,6 +18,7 @@
 #include <embree4/rtcore.h>
 #endif
 #include <fenv.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -722,17 +723,48 @@ static bool has_few(const koksma_scene *scene)
     return total <= KOKSMA__MAX_FACES;
 }
 
+/* Lists the triangles of part i; returns how far slack lets a ray pass beside them, per distance. */
+static float list_part(embree *e, size_t i, koksma__batch_bundle *box)
+{
+    const part *p = &e->parts[i];
+    float beside = 0;
+    for (size_t t = 0; t < p->mesh->n_triangles; t++) {
+        koksma__batch_face *face = &e->few.faces[e->few.n];
+        const uint32_t *index = p->mesh->indices + 3 * t;
+        const float *corners[3];
+        for (int c = 0; c < 3; c++) {
+            corners[c] = p->placed + 3 * (size_t)index[c];
+        }
+        if (!HOST->face(corners[0], corners[1], corners[2], face)) {
+            continue;
+        }
+        float reach = 0, size = 0;
+        for (int k = 0; k < 3; k++) {
+            const float x = corners[0][k], y = corners[1][k], z = corners[2][k];
+            reach += fabsf(y - x) + fabsf(z - x);
+            box->low[k] = fminf(box->low[k], fminf(fminf(x, y), z));
+            box->high[k] = fmaxf(box->high[k], fmaxf(fmaxf(x, y), z));
+            size += fmaxf(fabsf(box->low[k]), fabsf(box->high[k]));
+        }
+        e->few.size = fmaxf(e->few.size, size);
+        beside = fmaxf(beside, face->slack * reach);
+        face->part = (int32_t)i;
+        face->triangle = (uint32_t)t;
+        e->few.n++;
+    }
+    return beside;
+}
+
+/* Lists all triangles. Those of a part are a bundle, unless they are few, or all, or slivers that rays meet outside. */
 static void list_faces(embree *e)
 {
     for (size_t i = 0; i < e->n_parts; i++) {
-        const part *p = &e->parts[i];
-        for (size_t t = 0; t < p->mesh->n_triangles; t++) {
-            koksma__batch_face *face = &e->few.faces[e->few.n];
-            const uint32_t *index = p->mesh->indices + 3 * t;
-            const float *a = p->placed + 3 * (size_t)index[0], *b = p->placed + 3 * (size_t)index[1];
-            e->few.n += HOST->face(a, b, p->placed + 3 * (size_t)index[2], face);
-            face->part = (int32_t)i;
-            face->triangle = (uint32_t)t;
+        koksma__batch_bundle box = {
+            {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, (size_t)e->few.n, 0};
+        const bool thick = list_part(e, i, &box) < 0x1p-18f;
+        box.end = (size_t)e->few.n;
+        if (thick && e->n_parts > 1 && box.end - box.first >= KOKSMA__BUNDLED_FACES) {
+            e->few.bundles[e->few.n_bundles++] = box;
         }
     }
 }

@@ -103,10 +103,10 @@ typedef struct koksma__batch_shape {
     float pivot[3], axis[3], angle, growth; /* growth: scale - 1 */
 } koksma__batch_shape;
 
-/* Shapes within a box: a ray that misses the box meets none of them. */
+/* Shapes or triangles within a box: a ray that misses the box meets none of them. */
 typedef struct koksma__batch_bundle {
     float low[3], high[3];
-    size_t first, end; /* in koksma__batch_shapes.order */
+    size_t first, end; /* in koksma__batch_shapes.order or koksma__batch_faces.faces */
 } koksma__batch_bundle;
 
 /* A list of shapes in ascending order of id. */
@@ -144,11 +144,14 @@ typedef struct koksma__batch_face {
     uint32_t triangle;
 } koksma__batch_face;
 
-enum { KOKSMA__MAX_FACES = 64 };
+enum { KOKSMA__MAX_FACES = 64, KOKSMA__BUNDLED_FACES = 6 };
 
+/* Bundles are ascending and have at least KOKSMA__BUNDLED_FACES triangles each; `size` is that of koksma__batch_shapes. */
 typedef struct koksma__batch_faces {
-    int n;
+    int n, n_bundles;
+    float size;
     koksma__batch_face faces[KOKSMA__MAX_FACES];
+    koksma__batch_bundle bundles[KOKSMA__MAX_FACES / KOKSMA__BUNDLED_FACES];
 } koksma__batch_faces;
 
 /* A material: a constant albedo or a checker. The numbers su to t0 are the rotation, scale and offset of the checker:

@@ -125,6 +125,8 @@ INLINE void parallel_beams(const emitter *one, const emitters *restrict each, co
 
 /* ---- Meshes ----------------------------------------------------------------------------------------------------- */
 
+enum { FEW = 8 }; /* triangles of a light that all lanes try */
+
 /* The triangles that the lanes sample: `root` is 1 minus the weight of corner 2; `mine` is 0 where the light is no mesh. */
 typedef struct mesh_samples {
     _Alignas(64) koksma__lanes corners[9];
@@ -165,7 +167,55 @@ static bool choose_face(const koksma__shading_light *light, float u, int i, mesh
     return m->map != NULL;
 }
 
-static void mesh_lanes(const mesh_samples *restrict s, const koksma__hits *restrict h, const float *restrict u, int n,
+/* Sets the lanes that are `at` k, and all if k is 0. */
+INLINE void spread(float x, const int32_t *restrict at, size_t k, int n, float *restrict to)
+{
+    const int32_t here = (int32_t)k;
+    for (int i = 0; !k && i < STEP(n); i++) {
+        to[i] = x;
+    }
+    for (int i = 0; k && i < STEP(n); i++) {
+        to[i] = at[i] == here ? x : to[i];
+    }
+}
+
+/* Chooses like choose_face for all lanes, which share a light of few triangles without an image. */
+static void choose_faces(const koksma__shading_light *light, const koksma__light_lanes *l, const float *restrict u,
+                         int n, mesh_samples *restrict to)
+{
+    const koksma__mesh_light *m = light->data;
+    KOKSMA__LANES(int32_t, at);
+    for (int i = 0; i < STEP(n); i++) {
+        const double target = (double)u[i] * m->cdf[m->n];
+        int32_t low = 0;
+        for (size_t k = 1; k < m->n; k++) {
+            low += m->cdf[k] <= target;
+        }
+        const double size = m->cdf[low + 1] - m->cdf[low];
+        at[i] = low;
+        to->root[i] = (float)(size > 0 ? (target - m->cdf[low]) / size : 0);
+    }
+    for (int i = 0; i < STEP(n); i++) {
+        to->radiance[0][i] = light->radiance[0];
+        to->radiance[1][i] = light->radiance[1];
+        to->radiance[2][i] = light->radiance[2];
+        to->density[i] = 1 / light->area;
+        to->two_sided[i] = light->two_sided;
+        to->mine[i] = l->light[i] >= 0;
+    }
+    for (size_t k = 0; k < m->n; k++) {
+        const koksma__mesh_light_face *face = &m->faces[k];
+        for (int c = 0; c < 9; c++) {
+            spread(face->corners[c], at, k, n, to->corners[c]);
+        }
+        for (int c = 0; c < 3; c++) {
+            spread(face->normal[c], at, k, n, to->normal[c]);
+        }
+        spread(face->largest, at, k, n, to->largest);
+    }
+}
+
+INLINE void mesh_lanes(const mesh_samples *restrict s, const koksma__hits *restrict h, const float *restrict u, int n,
                        koksma__beams *restrict out)
 {
     LANES_APART
@@ -206,6 +256,19 @@ static void mesh_beams(const koksma__light_lanes *l, const koksma__hits *h, cons
                 out->value[k][i] *= glow[k];
             }
         }
+    }
+}
+
+static void shared_mesh_beams(const koksma__shading_light *light, const koksma__light_lanes *l, const koksma__hits *h,
+                              const koksma__lanes *u, int n, koksma__beams *out)
+{
+    const koksma__mesh_light *m = light->data;
+    if (m->map || m->n > FEW) {
+        mesh_beams(l, h, u, n, out);
+    } else {
+        mesh_samples s;
+        choose_faces(light, l, u[0], n, &s);
+        mesh_lanes(&s, h, u[1], n, out);
     }
 }
 
@@ -391,7 +454,7 @@ static void shared_beams(const koksma__shading_light *light, const koksma__light
         parallel_beams(&one, NULL, l, n, out);
         break;
     case KOKSMA__BEAMS_MESH:
-        mesh_beams(l, h, u, n, out);
+        shared_mesh_beams(light, l, h, u, n, out);
         break;
     case KOKSMA__BEAMS_AROUND:
         around_beams(light->data, NULL, l, u, n, out);

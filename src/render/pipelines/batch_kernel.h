@@ -4,6 +4,7 @@
 #ifndef KOKSMA_RENDER_PIPELINES_BATCH_KERNEL_H
 #define KOKSMA_RENDER_PIPELINES_BATCH_KERNEL_H
 
+#include <math.h>
 #include <string.h>
 
 #include "render/pipelines/batch.h"
@@ -100,6 +101,98 @@ INLINE void koksma__batch_push(const void *restrict from, const koksma__picks *r
     for (int j = 0; j < p->n; j++) {
         y[p->lane[j]] = x[j];
     }
+}
+
+/* Copies at most half of a block, and the last of the picked lanes up to a whole step. */
+INLINE void koksma__batch_pull_whole(const void *restrict from, const koksma__picks *restrict p, void *restrict to)
+{
+    uint32_t *last = (uint32_t *)to + p->n;
+    koksma__batch_pull(from, p, to);
+    for (int j = 0; j < KOKSMA__LANE_STEP; j++) {
+        last[j] = last[-1];
+    }
+}
+
+/* The number of lanes of whole steps. */
+INLINE int koksma__batch_pulled(const koksma__picks *p)
+{
+    return STEP(p->n + KOKSMA__LANE_STEP - 1);
+}
+
+/* ---- Bundles ---------------------------------------------------------------------------------------------------- */
+
+/*
+ * A hit that a loop of a shape or triangle reports lies at o + t d within a few rounding errors of it, relative to |o| and
+ * its coordinates; 2^-15 is some hundred times as much. The ray comes as near to the box in the interval of t where it
+ * is between low - margin and high + margin, in all coordinates: it meets what is in the box nowhere else.
+ */
+#define KOKSMA__BOX_MARGIN 0x1p-15f
+
+typedef struct koksma__slabs {
+    _Alignas(64) float above[3][KOKSMA__BLOCK]; /* the origin plus the margin */
+    _Alignas(64) float below[3][KOKSMA__BLOCK];
+    _Alignas(64) float inverse[3][KOKSMA__BLOCK]; /* of the direction, whose coordinates are not 0 */
+} koksma__slabs;
+
+INLINE float koksma__smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+INLINE float koksma__larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* 1 / d, where |d| counts as at least `least`. */
+INLINE float koksma__bounded_inverse(float d, float least)
+{
+    const float size = koksma__larger(fabsf(d), least);
+    return 1 / (d < 0 ? -size : size);
+}
+
+/* size: that of koksma__batch_shapes. */
+INLINE void koksma__slabs_of(const float *const o[3], const float *const d[3], float size, int n,
+                             koksma__slabs *restrict to)
+{
+    const float *restrict ox = o[0], *restrict oy = o[1], *restrict oz = o[2];
+    const float *restrict dx = d[0], *restrict dy = d[1], *restrict dz = d[2];
+    for (int i = 0; i < STEP(n); i++) {
+        const float margin = KOKSMA__BOX_MARGIN * (fabsf(ox[i]) + fabsf(oy[i]) + fabsf(oz[i]) + size);
+        const float most = koksma__larger(koksma__larger(fabsf(dx[i]), fabsf(dy[i])), fabsf(dz[i]));
+        const float least = koksma__larger(0x1p-24f * most, 1e-30f);
+        to->above[0][i] = ox[i] + margin;
+        to->above[1][i] = oy[i] + margin;
+        to->above[2][i] = oz[i] + margin;
+        to->below[0][i] = ox[i] - margin;
+        to->below[1][i] = oy[i] - margin;
+        to->below[2][i] = oz[i] - margin;
+        to->inverse[0][i] = koksma__bounded_inverse(dx[i], least);
+        to->inverse[1][i] = koksma__bounded_inverse(dy[i], least);
+        to->inverse[2][i] = koksma__bounded_inverse(dz[i], least);
+    }
+}
+
+/* Picks the lanes that may meet what is in a bundle before t = end; NULL: before a shadow ray ends. `wanted` is 0 in lanes
+   that do not count; NULL: all count. */
+INLINE void koksma__near_bundle(const koksma__batch_bundle *restrict b, const koksma__slabs *restrict s,
+                                const float *restrict end, const float *restrict wanted, int n,
+                                koksma__picks *restrict to)
+{
+    KOKSMA__LANES(int32_t, flags);
+    const float lx = b->low[0], ly = b->low[1], lz = b->low[2], hx = b->high[0], hy = b->high[1], hz = b->high[2];
+    for (int i = 0; i < STEP(n); i++) {
+        const float x0 = (lx - s->above[0][i]) * s->inverse[0][i], x1 = (hx - s->below[0][i]) * s->inverse[0][i];
+        const float y0 = (ly - s->above[1][i]) * s->inverse[1][i], y1 = (hy - s->below[1][i]) * s->inverse[1][i];
+        const float z0 = (lz - s->above[2][i]) * s->inverse[2][i], z1 = (hz - s->below[2][i]) * s->inverse[2][i];
+        const float in = koksma__larger(koksma__larger(koksma__smaller(x0, x1), koksma__smaller(y0, y1)),
+                                        koksma__larger(koksma__smaller(z0, z1), 0));
+        const float last = end ? end[i] : KOKSMA__SHADOW_END;
+        const float out = koksma__smaller(koksma__smaller(koksma__larger(x0, x1), koksma__larger(y0, y1)),
+                                          koksma__smaller(koksma__larger(z0, z1), last));
+        flags[i] = (in <= out) & (wanted ? wanted[i] != 0 : 1);
+    }
+    koksma__batch_pick(flags, n, to);
 }
 
 #endif

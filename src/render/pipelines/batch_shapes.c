@@ -150,104 +150,16 @@ static void shade_turned(const koksma__batch_shape *s, const koksma__hits *h, co
     memcpy(r->light, there.light, sizeof there.light);
 }
 
-/* ---- Some lanes of a block ------------------------------------------------------------------------------------ */
-
-/* Copies the picked lanes, and the last of them up to a whole step; at most half of the block is picked. */
-static void pull(const void *from, const koksma__picks *p, void *to)
-{
-    uint32_t *last = (uint32_t *)to + p->n;
-    koksma__batch_pull(from, p, to);
-    for (int j = 0; j < KOKSMA__LANE_STEP; j++) {
-        last[j] = last[-1];
-    }
-}
-
-/* The number of lanes that `pull` makes. */
-static int pulled(const koksma__picks *p)
-{
-    return STEP(p->n + KOKSMA__LANE_STEP - 1);
-}
+/* ---- Bundles of shapes ---------------------------------------------------------------------------------------- */
 
 static void pull_rays(const koksma__rays *r, const koksma__picks *p, koksma__rays *to)
 {
-    pull(r->ox, p, to->ox);
-    pull(r->oy, p, to->oy);
-    pull(r->oz, p, to->oz);
-    pull(r->dx, p, to->dx);
-    pull(r->dy, p, to->dy);
-    pull(r->dz, p, to->dz);
-}
-
-/* ---- Bundles of shapes ---------------------------------------------------------------------------------------- */
-
-/*
- * A hit that a loop of a shape reports lies at o + t d within a few rounding errors of the shape, relative to |o| and the
- * size of the shapes; 2^-15 is some hundred times as much. The ray comes as near to the box in the interval of t where it
- * is between low - margin and high + margin, in all coordinates: it meets the shapes nowhere else.
- */
-#define MARGIN 0x1p-15f
-
-typedef struct slabs {
-    _Alignas(64) float above[3][KOKSMA__BLOCK]; /* the origin plus the margin */
-    _Alignas(64) float below[3][KOKSMA__BLOCK];
-    _Alignas(64) float inverse[3][KOKSMA__BLOCK]; /* of the direction, whose coordinates are not 0 */
-} slabs;
-
-INLINE float largest(float x, float y, float z)
-{
-    const float m = x > y ? x : y;
-    return m > z ? m : z;
-}
-
-static void slabs_of(const float *const o[3], const float *const d[3], float size, int n, slabs *restrict to)
-{
-    const float *restrict ox = o[0], *restrict oy = o[1], *restrict oz = o[2];
-    const float *restrict dx = d[0], *restrict dy = d[1], *restrict dz = d[2];
-    for (int i = 0; i < STEP(n); i++) {
-        const float margin = MARGIN * (fabsf(ox[i]) + fabsf(oy[i]) + fabsf(oz[i]) + size);
-        const float most = largest(fabsf(dx[i]), fabsf(dy[i]), fabsf(dz[i]));
-        const float least = 0x1p-24f * most > 1e-30f ? 0x1p-24f * most : 1e-30f;
-        const float x = fabsf(dx[i]) > least ? fabsf(dx[i]) : least;
-        const float y = fabsf(dy[i]) > least ? fabsf(dy[i]) : least;
-        const float z = fabsf(dz[i]) > least ? fabsf(dz[i]) : least;
-        to->above[0][i] = ox[i] + margin;
-        to->above[1][i] = oy[i] + margin;
-        to->above[2][i] = oz[i] + margin;
-        to->below[0][i] = ox[i] - margin;
-        to->below[1][i] = oy[i] - margin;
-        to->below[2][i] = oz[i] - margin;
-        to->inverse[0][i] = 1 / (dx[i] < 0 ? -x : x);
-        to->inverse[1][i] = 1 / (dy[i] < 0 ? -y : y);
-        to->inverse[2][i] = 1 / (dz[i] < 0 ? -z : z);
-    }
-}
-
-INLINE float smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-INLINE float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-/* Picks the lanes that may meet the shapes of a bundle before t = end. `wanted` is 0 in lanes that do not count. */
-INLINE void near_bundle(const koksma__batch_bundle *restrict b, const slabs *restrict s, const float *restrict end,
-                        const float *restrict wanted, int n, koksma__picks *restrict to)
-{
-    KOKSMA__LANES(int32_t, flags);
-    const float lx = b->low[0], ly = b->low[1], lz = b->low[2], hx = b->high[0], hy = b->high[1], hz = b->high[2];
-    for (int i = 0; i < STEP(n); i++) {
-        const float x0 = (lx - s->above[0][i]) * s->inverse[0][i], x1 = (hx - s->below[0][i]) * s->inverse[0][i];
-        const float y0 = (ly - s->above[1][i]) * s->inverse[1][i], y1 = (hy - s->below[1][i]) * s->inverse[1][i];
-        const float z0 = (lz - s->above[2][i]) * s->inverse[2][i], z1 = (hz - s->below[2][i]) * s->inverse[2][i];
-        const float in = larger(larger(smaller(x0, x1), smaller(y0, y1)), larger(smaller(z0, z1), 0));
-        const float last = end ? end[i] : KOKSMA__SHADOW_END;
-        const float out = smaller(smaller(larger(x0, x1), larger(y0, y1)), smaller(larger(z0, z1), last));
-        flags[i] = (in <= out) & (wanted ? wanted[i] != 0 : 1);
-    }
-    koksma__batch_pick(flags, n, to);
+    koksma__batch_pull_whole(r->ox, p, to->ox);
+    koksma__batch_pull_whole(r->oy, p, to->oy);
+    koksma__batch_pull_whole(r->oz, p, to->oz);
+    koksma__batch_pull_whole(r->dx, p, to->dx);
+    koksma__batch_pull_whole(r->dy, p, to->dy);
+    koksma__batch_pull_whole(r->dz, p, to->dz);
 }
 
 /* Keeps the closer of the hits of each lane; of two at the same t that of the first shape, whatever their order. */
@@ -268,21 +180,21 @@ static void hit_bundles(const koksma__batch_shapes *shapes, const koksma__rays *
     const float *const o[3] = {r->ox, r->oy, r->oz}, *const d[3] = {r->dx, r->dy, r->dz};
     KOKSMA__LANES(int32_t, starts);
     koksma__picks p;
-    slabs s;
+    koksma__slabs s;
     koksma__rays some;
     koksma__hits mine;
-    slabs_of(o, d, shapes->size, n, &s);
+    koksma__slabs_of(o, d, shapes->size, n, &s);
     for (size_t b = 0; b < shapes->n_bundles; b++) {
         const koksma__batch_bundle *bundle = &shapes->bundles[b];
-        near_bundle(bundle, &s, h->t, NULL, n, &p);
+        koksma__near_bundle(bundle, &s, h->t, NULL, n, &p);
         if (!p.n) {
             continue;
         }
         const bool all = p.n > STEP(n) / 2;
-        const int whole = all ? n : pulled(&p);
+        const int whole = all ? n : koksma__batch_pulled(&p);
         if (!all) {
             pull_rays(r, &p, &some);
-            pull(from, &p, starts);
+            koksma__batch_pull_whole(from, &p, starts);
         }
         for (int j = 0; j < STEP(whole); j++) {
             mine.t[j] = INFINITY;
@@ -315,33 +227,33 @@ static void shade_bundles(const koksma__batch_shapes *shapes, const koksma__hits
     const float *const o[3] = {h->px, h->py, h->pz}, *const d[3] = {r->dx, r->dy, r->dz};
     KOKSMA__LANES(int32_t, aimed);
     koksma__picks p;
-    slabs s;
+    koksma__slabs s;
     koksma__hits some;
     koksma__shadows mine = {.aimed = r->aimed ? aimed : NULL};
-    slabs_of(o, d, shapes->size, n, &s);
+    koksma__slabs_of(o, d, shapes->size, n, &s);
     for (size_t b = 0; b < shapes->n_bundles; b++) {
         const koksma__batch_bundle *bundle = &shapes->bundles[b];
-        near_bundle(bundle, &s, NULL, r->light, n, &p);
+        koksma__near_bundle(bundle, &s, NULL, r->light, n, &p);
         if (!p.n) {
             continue;
         }
         const bool all = p.n > STEP(n) / 2;
         if (!all) {
-            pull(h->px, &p, some.px);
-            pull(h->py, &p, some.py);
-            pull(h->pz, &p, some.pz);
-            pull(h->primitive, &p, some.primitive);
-            pull(r->dx, &p, mine.dx);
-            pull(r->dy, &p, mine.dy);
-            pull(r->dz, &p, mine.dz);
-            pull(r->light, &p, mine.light);
+            koksma__batch_pull_whole(h->px, &p, some.px);
+            koksma__batch_pull_whole(h->py, &p, some.py);
+            koksma__batch_pull_whole(h->pz, &p, some.pz);
+            koksma__batch_pull_whole(h->primitive, &p, some.primitive);
+            koksma__batch_pull_whole(r->dx, &p, mine.dx);
+            koksma__batch_pull_whole(r->dy, &p, mine.dy);
+            koksma__batch_pull_whole(r->dz, &p, mine.dz);
+            koksma__batch_pull_whole(r->light, &p, mine.light);
         }
         if (!all && r->aimed) {
-            pull(r->aimed, &p, aimed);
+            koksma__batch_pull_whole(r->aimed, &p, aimed);
         }
         for (size_t k = bundle->first; k < bundle->end; k++) {
-            shade_shape(&shapes->shapes[shapes->order[k]], all ? h : &some, nowhere, all ? n : pulled(&p),
-                        all ? r : &mine);
+            shade_shape(&shapes->shapes[shapes->order[k]], all ? h : &some, nowhere,
+                        all ? n : koksma__batch_pulled(&p), all ? r : &mine);
         }
         if (!all) {
             koksma__batch_push(mine.light, &p, r->light);
@@ -369,8 +281,8 @@ static void finish_some(const koksma__batch_shape *s, const koksma__rays *rays, 
     koksma__rays some;
     koksma__hits done;
     pull_rays(rays, p, &some);
-    pull(h->t, p, done.t);
-    finish_shape(s, &some, pulled(p), &done, true);
+    koksma__batch_pull_whole(h->t, p, done.t);
+    finish_shape(s, &some, koksma__batch_pulled(p), &done, true);
     koksma__batch_push(done.px, p, h->px);
     koksma__batch_push(done.py, p, h->py);
     koksma__batch_push(done.pz, p, h->pz);

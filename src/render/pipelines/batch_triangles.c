@@ -102,24 +102,25 @@ INLINE meeting meet(const koksma__batch_face *f, koksma__v3 e, koksma__v3 d)
     return (meeting){t, u, v, (u >= -slack) & (v >= -slack) & (u + v <= 1 + slack)};
 }
 
-int BATCH_NAME(meet_faces)(const koksma__batch_faces *faces, const float *restrict x, const float *restrict y,
-                           const float *restrict z, const koksma__rays *restrict r, const koksma__hits *restrict h,
-                           int n, koksma__landings *restrict out)
+/* Rays, or shadow rays by their end, and what they meet. */
+typedef struct lines {
+    const float *x, *y, *z, *dx, *dy, *dz;
+} lines;
+
+static void meet_range(const koksma__batch_faces *faces, size_t first, size_t end, const lines *r, int n,
+                       koksma__landings *restrict out)
 {
+    const float *restrict x = r->x, *restrict y = r->y, *restrict z = r->z;
+    const float *restrict dx = r->dx, *restrict dy = r->dy, *restrict dz = r->dz;
     float *restrict ts = out->t, *restrict us = out->u, *restrict vs = out->v;
     int32_t *restrict parts = out->primitive;
     uint32_t *restrict triangles = out->triangle;
-    int count = 0;
-    for (int i = 0; i < STEP(n); i++) {
-        ts[i] = h->t[i];
-        parts[i] = -1;
-    }
-    for (int k = 0; k < faces->n; k++) {
+    for (size_t k = first; k < end; k++) {
         const koksma__batch_face f = faces->faces[k];
         LANES_APART
         for (int i = 0; i < STEP(n); i++) {
             const koksma__v3 e = {x[i] - f.corner[0], y[i] - f.corner[1], z[i] - f.corner[2]};
-            const meeting m = meet(&f, e, (koksma__v3){r->dx[i], r->dy[i], r->dz[i]});
+            const meeting m = meet(&f, e, (koksma__v3){dx[i], dy[i], dz[i]});
             const int hit = m.inside & (m.t > 0) & (m.t < ts[i]);
             ts[i] = hit ? m.t : ts[i];
             us[i] = hit ? m.u : us[i];
@@ -128,27 +129,125 @@ int BATCH_NAME(meet_faces)(const koksma__batch_faces *faces, const float *restri
             triangles[i] = hit ? f.triangle : triangles[i];
         }
     }
-    for (int i = 0; i < STEP(n); i++) {
-        count += parts[i] >= 0;
-    }
-    return count;
 }
 
-void BATCH_NAME(shade_faces)(const koksma__batch_faces *faces, const float *restrict x, const float *restrict y,
-                             const float *restrict z, const koksma__hits *restrict h, int n,
-                             koksma__shadows *restrict s)
+static void shade_range(const koksma__batch_faces *faces, size_t first, size_t end, const lines *r, int n,
+                        float *restrict light)
 {
-    for (int k = 0; k < faces->n; k++) {
+    const float *restrict x = r->x, *restrict y = r->y, *restrict z = r->z;
+    const float *restrict dx = r->dx, *restrict dy = r->dy, *restrict dz = r->dz;
+    for (size_t k = first; k < end; k++) {
         const koksma__batch_face f = faces->faces[k];
         LANES_APART
         for (int i = 0; i < STEP(n); i++) {
             const koksma__v3 e = {x[i] - f.corner[0], y[i] - f.corner[1], z[i] - f.corner[2]};
-            /* the ray ends where it would if it began at the hit */
-            const meeting m = meet(&f, e,
-                                   (koksma__v3){s->dx[i] + (h->px[i] - x[i]), s->dy[i] + (h->py[i] - y[i]),
-                                                s->dz[i] + (h->pz[i] - z[i])});
+            const meeting m = meet(&f, e, (koksma__v3){dx[i], dy[i], dz[i]});
             const int hit = m.inside & (m.t > 0) & (m.t < KOKSMA__SHADOW_END);
-            s->light[i] *= hit ? 0.0f : 1.0f;
+            light[i] *= hit ? 0.0f : 1.0f;
         }
     }
+}
+
+static lines pull_lines(const lines *r, const koksma__picks *p, koksma__rays *to)
+{
+    koksma__batch_pull_whole(r->x, p, to->ox);
+    koksma__batch_pull_whole(r->y, p, to->oy);
+    koksma__batch_pull_whole(r->z, p, to->oz);
+    koksma__batch_pull_whole(r->dx, p, to->dx);
+    koksma__batch_pull_whole(r->dy, p, to->dy);
+    koksma__batch_pull_whole(r->dz, p, to->dz);
+    return (lines){to->ox, to->oy, to->oz, to->dx, to->dy, to->dz};
+}
+
+static void meet_bundle(const koksma__batch_faces *faces, const koksma__batch_bundle *b, const koksma__slabs *s,
+                        const lines *r, int n, koksma__landings *out)
+{
+    koksma__picks p;
+    koksma__rays some;
+    koksma__landings on;
+    koksma__near_bundle(b, s, out->t, NULL, n, &p);
+    if (p.n > STEP(n) / 2) {
+        meet_range(faces, b->first, b->end, r, n, out);
+    } else if (p.n) {
+        const lines picked = pull_lines(r, &p, &some);
+        koksma__batch_pull_whole(out->t, &p, on.t);
+        koksma__batch_pull_whole(out->u, &p, on.u);
+        koksma__batch_pull_whole(out->v, &p, on.v);
+        koksma__batch_pull_whole(out->primitive, &p, on.primitive);
+        koksma__batch_pull_whole(out->triangle, &p, on.triangle);
+        meet_range(faces, b->first, b->end, &picked, koksma__batch_pulled(&p), &on);
+        koksma__batch_push(on.t, &p, out->t);
+        koksma__batch_push(on.u, &p, out->u);
+        koksma__batch_push(on.v, &p, out->v);
+        koksma__batch_push(on.primitive, &p, out->primitive);
+        koksma__batch_push(on.triangle, &p, out->triangle);
+    }
+}
+
+static void shade_bundle(const koksma__batch_faces *faces, const koksma__batch_bundle *b, const koksma__slabs *s,
+                         const lines *r, int n, float *light)
+{
+    KOKSMA__LANES(float, lit);
+    koksma__picks p;
+    koksma__rays some;
+    koksma__near_bundle(b, s, NULL, light, n, &p);
+    if (p.n > STEP(n) / 2) {
+        shade_range(faces, b->first, b->end, r, n, light);
+    } else if (p.n) {
+        const lines picked = pull_lines(r, &p, &some);
+        koksma__batch_pull_whole(light, &p, lit);
+        shade_range(faces, b->first, b->end, &picked, koksma__batch_pulled(&p), lit);
+        koksma__batch_push(lit, &p, light);
+    }
+}
+
+int BATCH_NAME(meet_faces)(const koksma__batch_faces *faces, const float *x, const float *y, const float *z,
+                           const koksma__rays *rays, const koksma__hits *h, int n, koksma__landings *out)
+{
+    const float *const o[3] = {x, y, z}, *const d[3] = {rays->dx, rays->dy, rays->dz};
+    const lines r = {x, y, z, rays->dx, rays->dy, rays->dz};
+    koksma__slabs s;
+    size_t at = 0;
+    int count = 0;
+    for (int i = 0; i < STEP(n); i++) {
+        out->t[i] = h->t[i];
+        out->u[i] = out->v[i] = 0;
+        out->primitive[i] = -1;
+        out->triangle[i] = 0;
+    }
+    if (faces->n_bundles) {
+        koksma__slabs_of(o, d, faces->size, n, &s);
+    }
+    for (int b = 0; b < faces->n_bundles; at = faces->bundles[b++].end) {
+        meet_range(faces, at, faces->bundles[b].first, &r, n, out);
+        meet_bundle(faces, &faces->bundles[b], &s, &r, n, out);
+    }
+    meet_range(faces, at, (size_t)faces->n, &r, n, out);
+    for (int i = 0; i < STEP(n); i++) {
+        count += out->primitive[i] >= 0;
+    }
+    return count;
+}
+
+void BATCH_NAME(shade_faces)(const koksma__batch_faces *faces, const float *x, const float *y, const float *z,
+                             const koksma__hits *h, int n, koksma__shadows *shadows)
+{
+    _Alignas(64) float d[3][KOKSMA__BLOCK];
+    const float *const o[3] = {x, y, z}, *const along[3] = {d[0], d[1], d[2]};
+    const lines r = {x, y, z, d[0], d[1], d[2]};
+    koksma__slabs s;
+    size_t at = 0;
+    for (int i = 0; i < STEP(n); i++) { /* a ray ends where it would if it began at the hit */
+        d[0][i] = shadows->dx[i] + (h->px[i] - x[i]);
+        d[1][i] = shadows->dy[i] + (h->py[i] - y[i]);
+        d[2][i] = shadows->dz[i] + (h->pz[i] - z[i]);
+    }
+    if (faces->n_bundles) {
+        koksma__slabs_of(o, along, faces->size, n, &s);
+    }
+    for (int b = 0; b < faces->n_bundles; at = faces->bundles[b++].end) {
+        shade_range(faces, at, faces->bundles[b].first, &r, n, shadows->light);
+        shade_bundle(faces, &faces->bundles[b], &s, &r, n, shadows->light);
+    }
+    shade_range(faces, at, (size_t)faces->n, &r, n, shadows->light);
 }
