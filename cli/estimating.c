@@ -87,6 +87,11 @@ static bool read_options(estimating *e)
         (replicates > 1 && !cli_seeds_fit(arguments, o->seed, replicates))) {
         return false;
     }
+    if (o->estimate.confidence < 0.5 && !cli_given(arguments, "quiet")) {
+        cli_say("integrate",
+                "warning: --confidence %g: the interval misses the integral more often than not; 0.95 is 95 %%",
+                o->estimate.confidence);
+    }
     o->replicates = (size_t)replicates;
     o->resume = cli_text(arguments, "resume", NULL);
     if (!cli_text(arguments, "digits", NULL)) { /* those of an estimate, which has more than its error */

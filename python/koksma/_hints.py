@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import inspect
 import re
-from difflib import get_close_matches
 from typing import Any, Callable, Sequence
+
+from ._library import closest
 
 _CALLS = {  # names of others, chiefly of scipy.stats.qmc
     "discrepancy": 'measure(points, "CD") is the value of scipy.stats.qmc.discrepancy, its names "WD", "MD" and "L2-star" are known, too',
@@ -46,8 +47,8 @@ def hint(name: str, known: Sequence[str]) -> str:
     of_measure = words.replace("-discrepancy", "")
     if of_measure in (m.name for m in measures()):
         return f'; koksma.measure(points, "{of_measure}") computes it'
-    near = get_close_matches(british.replace("list_", ""), [k for k in known if k.islower() or not name.islower()], 1)
-    return f"; did you mean koksma.{near[0]}?" if near else "; help(koksma) names all that there is"
+    near = closest(british.replace("list_", ""), [k for k in known if k.islower() or not name.islower()])
+    return f"; did you mean koksma.{near}?" if near else "; help(koksma) names all that there is"
 
 
 _MEANT = {  # what others call an argument, and what functions of this package call it, the likeliest first
@@ -76,10 +77,10 @@ def hint_of_argument(name: str, function: "Callable[..., Any]") -> str:
     word = own if own in _PARTS else name.lower()
     known = [p for p in inspect.signature(function).parameters if p not in ("self", "cls")]
     meant = [k for k, others in _MEANT.items() if k in known and word in others.split()]
-    near = meant or get_close_matches(word, known, 1)
+    near = meant[0] if meant else closest(word, known)
     if word in ("output", "path", "out", "file") and not meant and function.__name__ in ("render", "datasheet", "plot"):
         return "; write_image(path, image) writes it" if function.__name__ == "render" else "; the method save(path) of its result writes it"
-    return (f"; {name} {_PARTS[word]}" if word in _PARTS and not meant else f"; did you mean {near[0]}?" if near
+    return (f"; {name} {_PARTS[word]}" if word in _PARTS and not meant else f"; did you mean {near}?" if near
             else f"; it takes {', '.join(known)}")
 
 
@@ -95,11 +96,18 @@ _REMEDIES = (  # what a function ("": any) says, with FIRST for the name of its 
     ("integrate", r"^FIRST\(\) missing \d+ required positional", "it takes one array of shape (n, dim): x[:, 0], x[:, 1]"),
     ("integrate", r"bounds of the integrand's values", "they are value_range=(low, high)"),
     ("integrate", r"no integrand", "koksma.integrands() names them; a function of one's own is one of Python"),
+    ("mask_quality", r"number -.*; those of scalar are", "a mask has numbers of 0 to 1, each equally often, as koksma.mask makes it"),
     ("mask_quality", r"those of scalar are 0 to 1", "divide values of 0 to 255 by 255"),
+    ("mask_quality", r"those of vector3 are", "a picture is no mask; (height, width, 3) are the numbers of vector3"),
+    ("generate", r"dim must be an int, not 0\.", 'a radius is a part of the pattern: "poisson-disk:d=0.1"'),
+    ("__init__", r"^d must be|d must be a", 'a radius is a part of the pattern: "poisson-disk:d=0.1"'),
     ("mask_quality", r"must be an array of numbers, not '", "read_mask(path) reads a file"),
     ("rank", r"spp must be an int, not \[", "call it for each number"),
     ("rank", r"patterns must be a list of texts, not 'all'", "[p.name for p in koksma.patterns()] is one of all"),
-    ("plot_compare", r"pattern must be a str, not \[", "plot(a, b) draws several sets"),
+    ("plot_compare", r"pattern must be a str, not \d", "numbers have names: n=256, size=640"),
+    ("plot_compare", r"pattern must be a str, not [\[(]['\"]", "plot_compare(*patterns) takes those of a list"),
+    ("plot_compare", r"pattern must be a str, not ", "plot(a, b) draws several sets"),
+    ("plot", r"dim of at least 1, not \(\)", "numbers have names: columns=16, size=640"),
     ("warp_points", r"no warp 'disk'", "concentric-disk and polar-disk map to it"),
     ("", r"^(?:patterns|measures|integrands|metrics|warps|scenes)\(\) takes 0 positional", "it lists all; each has a name"),
 )
@@ -116,14 +124,16 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
 
     known = list(inspect.signature(function).parameters)
     given = list(zip(known, values))
-    no_text = [name for name, value in given if name in _TEXTS and not isinstance(value, (str, list, tuple))]
+    no_text = [] if function.__name__.startswith("plot") else [name for name, value in given if name in _TEXTS and not isinstance(value, (str, list, tuple))]
     if no_text and any(name in _NO_TEXTS and isinstance(value, str) for name, value in given):
         return f"; the order is {function.__name__}({', '.join(known[:2])})"
     if no_text == ["pattern"] and message.startswith("pattern must be a str"):
         return ("; uses are in one text, 'pixel=random;lens=sobol'" if any(isinstance(value, dict) for value in values)
                 else "; a set of one's own is a file, 'file:PATH'")
-    if function.__name__ == "plot" and len(values) > 1 and any(isinstance(value, str) for value in values):
-        return "; plot(points).save(path) writes a file"
+    for word in [value for value in values if isinstance(value, str)] if function.__name__ == "plot" else ():
+        return ("; generate(pattern, n) makes points" if word.partition(":")[0] in [p.name for p in patterns()]
+                else f"; plot(points, witness={word!r}) draws the region where it is reached" if word.partition(":")[0] in [m.name for m in measures()]
+                else "; plot(points).save(path) writes a file")
     if re.search(r"takes from \d+ to \d+ positional", message):
         order = [p.name for p in inspect.signature(function).parameters.values() if p.kind == p.POSITIONAL_OR_KEYWORD]
         return f"; the order is {function.__name__}({', '.join(order)}), the others have names"

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _structs as s
 from ._frame import Framed
 from ._library import (ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text,
-                       whole, warn_of_one_set)
+                       warn, warn_of_one_set, whole)
 from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
 from ._tolerance import Integral, integrate_to
 
@@ -249,6 +249,20 @@ def _estimates(function: Callable[[PointArray], npt.ArrayLike], source: Union[st
     return found
 
 
+def _doubt(integral: float, sizes: Sequence[int], estimates: npt.NDArray[np.float64], unbiased: bool) -> None:
+    """Warns of an integral that is surely another: by the standard error at the largest size, where the sets have no bias; of
+    one set by how little the estimates moved on the way there, the last fourfold of it above all."""
+    order, means = np.argsort(sizes), estimates.mean(axis=0)
+    n, moved = np.asarray(sizes)[order], means[order] - means[order[-1]]
+    if len(estimates) > 1:
+        error = estimates[:, order[-1]].std(ddof=1) / math.sqrt(len(estimates)) if unbiased else math.inf
+    else:
+        error = max(abs(moved[n <= n[-1] / 4][-1]), np.ptp(moved) / 4) if n[0] <= n[-1] / 16 else math.inf
+    if 0 < 10 * error < abs(means[order[-1]] - integral):
+        warn(f"integral {integral:g}: the estimates are {means[order[-1]]:.6g} +- {error:.2g}; is it the function's over the "
+             "unit cube, or has that a pole?")
+
+
 def _summary(integral: float, variance: float, options: s.IntegrationOptions, estimates: npt.NDArray[np.float64]) -> s.Integration:
     result = s.Integration()
     options.trials = len(estimates)
@@ -413,7 +427,9 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
             name, integral, variance = facts.spec, facts.value, facts.variance
         else:
             name = _name_of(function)
-            result = _summary(integral, variance, options, _estimates(function, source, sizes, dim, trials, seed, threads))
+            estimates = _estimates(function, source, sizes, dim, trials, seed, threads)
+            result = _summary(integral, variance, options, estimates)
+            _doubt(integral, sizes, estimates, isinstance(source, str) and bool(core().koksma_is_unbiased(byref(spec("pattern", source)))))
         rows = result.rows[:len(sizes)]
     columns = {key: np.array([getattr(row, key) for row in rows])
                for key in ("rmse", "low", "high", "approximate", "mean", "sd", "gain", "z")}

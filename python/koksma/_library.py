@@ -117,6 +117,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_char_p, "koksma_status_text", c_int)
     _declare(library, c_int, "koksma_pattern_spec", c_char_p, spec)
     _declare(library, c_int, "koksma_measure_spec", c_char_p, spec)
+    _declare(library, c_char_p, "koksma_closest_name", c_char_p, s.NameAt, c_void_p)
     _declare(library, None, "koksma_spec_text", spec, c_char_p)
     _declare(library, POINTER(s.Pattern), "koksma_pattern_at", c_size_t)
     _declare(library, POINTER(s.Measure), "koksma_measure_at", c_size_t)
@@ -131,6 +132,7 @@ def core() -> ctypes.CDLL:
     _declare(library, c_int, "koksma_generate_whole", spec, c_uint64, run, c_int, points)
     _declare(library, None, "koksma_points_fini", points)
     _declare(library, c_int, "koksma_points_read", c_char_p, points)
+    _declare(library, c_size_t, "koksma_points_oddities", points, c_char_p, c_size_t)
     _declare(library, c_int, "koksma_points_write", c_char_p, points, c_char_p, run)
     _declare(library, c_int, "koksma__evaluate_array", spec, c_void_p, c_int, POINTER(s.Value))
     _declare(library, c_int, "koksma__generate_array", spec, c_uint64, c_void_p, c_int)
@@ -605,6 +607,14 @@ def spec(kind: str, name: str) -> s.Spec:
             _SPECS.clear()
         _SPECS[kind, name] = result
     return result
+
+
+def closest(word: str, names: Sequence[str]) -> str:
+    """The name that a misspelt word means, as the program finds it; "" if none is like it."""
+    kept = [ctypes.create_string_buffer(os.fsencode(name)) for name in names]
+    at = s.NameAt(lambda _table, i: addressof(kept[i]) if i < len(kept) else None)
+    found = core().koksma_closest_name(word.encode(errors="replace").split(b"\0")[0], at, None)
+    return os.fsdecode(found) if found else ""
 
 
 def with_hints(function: Any) -> Any:

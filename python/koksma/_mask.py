@@ -2,6 +2,7 @@
 """Blue-noise masks for a filter: making, measuring, reading and writing."""
 from __future__ import annotations
 
+import math
 import os
 from ctypes import POINTER, byref, c_float, c_int, cast
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import ArgumentError, Seed, call, check, core, flag, lab, pair, quoted, real, seed_of, text, whole
+from ._library import ArgumentError, Seed, call, check, core, flag, lab, pair, quoted, real, seed_of, text, warn, whole
 
 MaskArray = npt.NDArray[np.float32]
 _BY_NUMBERS = ("scalar", "vector2", "vector3", "vector4")
@@ -80,6 +81,29 @@ def _as_mask(name: str, given: Any, space: Optional[str]) -> Tuple[MaskArray, An
         raise ArgumentError(f"{name} must have {found.contents.dim} numbers a pixel in the space {found.contents.name.decode()}, not "
                             f"{array.shape[2]}")
     return array, found
+
+
+def _alike(array: npt.NDArray[Any]) -> float:
+    """The correlation of neighbours in a row: about 0 of a mask or less, near 1 of a picture."""
+    left, right = (side.ravel() - side.mean() for side in (array[:, :-1], array[:, 1:]))
+    return float(left @ right / math.sqrt((left @ left) * (right @ right) or 1))
+
+
+def is_permutation(array: npt.NDArray[Any]) -> bool:
+    """Whether all numbers are equally often."""
+    counts = np.unique(array, return_counts=True)[1]
+    return bool(np.ptp(counts) <= 1 < len(counts))
+
+
+def looks_like_mask(image: npt.NDArray[Any]) -> bool:
+    return image.shape[2] == 1 and image.size >= 256 and _alike(image) < 0.2 and is_permutation(image)
+
+
+def _doubt(name: str, array: MaskArray) -> None:
+    if array.size > 1 and (array == array.flat[0]).all():
+        warn(f"{name}: all numbers are {array.flat[0]:g}: a mask has different ones")
+    elif array.size >= 256 and _alike(array) > 0.5 and not is_permutation(array):
+        warn(f"{name}: neighbours are alike, as in a picture, not different, as in a mask; read_image reads pictures")
 
 
 def _pointer(array: MaskArray) -> Any:
@@ -180,6 +204,7 @@ def mask_quality(mask: npt.ArrayLike, filter: Union[str, npt.ArrayLike] = "gauss
     True
     """
     array, found = _as_mask("mask", mask, space)
+    _doubt("mask", array)
     count = whole("tests", tests, 1, 65536) if tests is not None else 256 if array.shape[2] == 1 else 400
     result = s.MaskQuality()
     call(core().koksma_mask_measure, array.shape[1], array.shape[0], found, _pointer(array), byref(filter_of(filter)), count, byref(result),
@@ -212,6 +237,7 @@ def read_mask(path: Union[str, "os.PathLike[str]"], space: Optional[str] = None)
     shape = (result.height, result.width, result.space.contents.dim)
     array = np.ctypeslib.as_array(cast(result.values, POINTER(c_float * int(np.prod(shape)))).contents).reshape(shape).copy()
     lab().koksma_mask_fini(byref(result))
+    _doubt(os.fsdecode(path), array)
     return _shaped(array)
 
 
@@ -234,5 +260,6 @@ def write_mask(path: Union[str, "os.PathLike[str]"], mask: npt.ArrayLike, *, spa
     >>> koksma.write_mask("m.png", koksma.mask(size=(8, 8)), bits=8)
     """
     array, found = _as_mask("mask", mask, space)
+    _doubt("mask", array)
     written = s.Mask(array.shape[1], array.shape[0], found, _pointer(array))
     check(lab().koksma_mask_write(text(path, "path"), byref(written), c_int(whole("bits", bits, 0, 32))))

@@ -325,8 +325,7 @@ def as_points(points: npt.ArrayLike) -> PointArray:
 
     What NumPy would cut down to a real number without being asked (the imaginary part, a date, a mask) is refused.
     """
-    if (type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size
-            and not 4 <= 2 * points.shape[0] < points.shape[1]):
+    if (type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size):
         return points
     try:
         given = np.asanyarray(points)
@@ -345,10 +344,19 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         raise ArgumentError("points must not have masked coordinates")
     array = array if array.flags.aligned else array.copy()
     if given.ndim != 2 or 0 in array.shape:
-        column = "; points[:, None] has one dimension" if given.ndim == 1 and len(given) > 1 else ""
+        column = ("; x[:, None] has one dimension, x.reshape(-1, 2) two, and np.column_stack((x, y)) joins columns"
+                  if given.ndim == 1 and len(given) > 1 else "")
         raise ArgumentError(f"points must be an array of shape (n, dim), with n and dim of at least 1, not {given.shape}{column}")
-    if 2 <= array.shape[0] < array.shape[1] / 2 and array.shape[1] > 3:
-        warn(f"{array.shape[0]} points in {array.shape[1]} dimensions; are rows and columns swapped?")
+    return array
+
+
+def doubted(points: npt.ArrayLike) -> PointArray:
+    """as_points of what is measured or tested: warns of what looks like no coordinates."""
+    array = as_points(points)
+    c_points, room = view(array), ctypes.create_string_buffer(4096)
+    core().koksma_points_oddities(byref(c_points), room, len(room))
+    for line in room.value.decode().splitlines():
+        warn(line)
     return array
 
 
@@ -668,8 +676,8 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
             value = _quick_value(points, measure, threads)
             if value is not None:
                 return value
-        return _value_of(points, measure, warp=warp, threads=threads, time_limit=time_limit)
-    names, array = texts("measure", measure), as_points(points)
+        return _value_of(doubted(points), measure, warp=warp, threads=threads, time_limit=time_limit)
+    names, array = texts("measure", measure), doubted(points)
     return {name: _value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in names}
 
 
@@ -768,7 +776,7 @@ def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding
     >>> all(f.holds for f in found if f.property == "latin")
     True
     """
-    array = as_points(points)  # a copy, perhaps, which the name keeps
+    array = doubted(points)  # a copy, perhaps, which the name keeps
     c_points = view(array)
     return _findings(core().koksma_verify, byref(c_points), threads=threads, run_at=1)
 
@@ -826,7 +834,7 @@ def identify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Ident
     ('equal', "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", 5)
     """
     identities = s.Identities()
-    array = as_points(points)  # a copy, perhaps, which the name keeps
+    array = doubted(points)  # a copy, perhaps, which the name keeps
     c_points = view(array)
     try:
         call(core().koksma_identify, byref(c_points), byref(identities), threads=threads, run_at=1)

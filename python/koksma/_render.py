@@ -13,8 +13,9 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._library import (ArgumentError, Seed, call, check, choice, core, flag, lab, pair, quoted, real, seed_of, text,
+from ._library import (ArgumentError, Seed, call, check, choice, closest, core, flag, lab, pair, quoted, real, seed_of, text,
                        warn, whole)
+from ._mask import looks_like_mask
 from ._points import Named, free_with, named, shown
 
 
@@ -165,10 +166,8 @@ def _choice(argument: str, kind: str, word: str) -> int:
 def _found(kind: str, name: str) -> int:
     found: int = getattr(lab(), f"koksma_{kind}_find")(text(name, kind))
     if not found:
-        from difflib import get_close_matches
-
-        near = get_close_matches(str(name).lower(), [member.name for member in named(getattr(lab(), f"koksma_{kind}_at"))], 1)
-        meant = f"did you mean {near[0]!r}? " if near else ""
+        near = closest(os.fsdecode(name), [member.name for member in named(getattr(lab(), f"koksma_{kind}_at"))])
+        meant = f"did you mean {near!r}? " if near else ""
         raise ArgumentError(f"no {kind} {quoted(name)}; {meant}koksma.{kind}s() names them")
     return found
 
@@ -470,7 +469,10 @@ def read_image(path: Union[str, "os.PathLike[str]"]) -> npt.NDArray[np.float32]:
     check(lab().koksma_image_read(text(path, "path"), byref(image)))
     if remark := lab().koksma_image_remark().decode():
         warn(f"{os.fspath(path)}: {remark}")
-    return adopt_image(image)
+    array = adopt_image(image)
+    if os.fsdecode(path).lower().endswith(".png") and looks_like_mask(array):
+        warn(f"{os.fspath(path)}: all levels are equally often, as in a mask; read_mask has its numbers, this their light by sRGB")
+    return array
 
 
 def write_image(path: Union[str, "os.PathLike[str]"], image: npt.ArrayLike) -> None:

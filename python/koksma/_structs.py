@@ -351,6 +351,7 @@ class RankPicture(Structure):
                 ("seed", c_uint64)]
 
 
+NameAt = CFUNCTYPE(c_void_p, c_void_p, c_size_t)
 RankDoubt = CFUNCTYPE(None, c_void_p, c_char_p)
 RankProcess = CFUNCTYPE(c_int, c_void_p, POINTER(Image), POINTER(Run), POINTER(Image))
 RankRenderer = CFUNCTYPE(c_int, c_void_p, POINTER(RankPicture), POINTER(Run), POINTER(Image))

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _structs as s
 from ._frame import Framed, columns_of
-from ._library import ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, spec, text, whole
+from ._library import ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, spec, text, warn, whole
 from ._points import Named, PointArray, canonical, named, numbers, warp_points
 
 #: The digital shift makes random the digits below the 32 of the sequence, whose truncation is a bias of 2^-33.
@@ -226,6 +226,8 @@ def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional
     options.relative, options.absolute = (tolerance, 0) if flag("relative", relative) else (0, tolerance)
     options.estimate.estimator, options.estimate.interval = _name("estimator", estimator), _name("interval", interval)
     options.estimate.confidence = real("confidence", confidence)
+    if 0 < confidence < 0.5:
+        warn(f"confidence {confidence:g}: the interval misses the integral more often than not; 0.95 is 95 %")
     raised: List[BaseException] = []
     result, parsed = s.Tolerance(), spec("pattern", pattern)
     with ExitStack() as stack:

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Mistakes that still give a number: each has one warning, at the caller's line, and what is right has none."""
+import math
+import tempfile
 import unittest
 import warnings
 
@@ -54,6 +56,42 @@ class Doubts(unittest.TestCase):
                     ("the light of the reference", lambda: koksma.rank_to_error("ball", 0.1, ["random"], reference=ball * 255, time_limit=1))],
                    [rank(ball), rank(process=lambda x: (x + np.roll(x, 1, 0)) / 2), rank(),
                     lambda: koksma.rank_to_error("ball", 0.1, ["random"], reference=ball)])
+
+    def test_integrals(self):
+        def product(x):
+            return x[:, 0] * x[:, 1]
+
+        def with_integral(integral, pattern, n=(64, 256, 1024), function=product):
+            return lambda: koksma.integrate(function, pattern, list(n), integral=integral)
+
+        patterns = ("random", "sobol:scramble=owen", "sobol")
+        self.check([*((f"integral {wrong}", with_integral(wrong, p)) for p in patterns for wrong in (0.3, 4)),
+                    ("confidence 0.05", lambda: koksma.integrate(product, 2, tolerance=0.01, confidence=0.05))],
+                   [*(with_integral(0.25, p) for p in patterns), with_integral(0.3, "sobol", (100, 101, 102)), with_integral(math.nan, "random"),
+                    *(with_integral(1e-4, p, function=lambda x: 1.0 * (x.max(axis=1) < 0.01)) for p in patterns),
+                    lambda: koksma.integrate(product, 2, tolerance=0.01, confidence=0.5)])
+
+    def test_masks(self):
+        noise, picture = koksma.mask(size=(32, 32), swaps=10), koksma.render("cornell", spp=4, size=(32, 32))
+        with tempfile.TemporaryDirectory() as folder:
+            mask_path, picture_path = folder + "/m.png", folder + "/p.png"
+            koksma.write_mask(mask_path, noise)
+            koksma.write_image(picture_path, picture)
+            self.check([("read_mask has its numbers", lambda: koksma.read_image(mask_path)),
+                        ("read_image reads pictures", lambda: koksma.read_mask(picture_path)),
+                        ("neighbours are alike", lambda: koksma.mask_quality(np.clip(picture[..., 0], 0, 1))),
+                        ("all numbers are 0.5", lambda: koksma.mask_quality(np.full((8, 8), 0.5)))],
+                       [lambda: koksma.read_image(picture_path), lambda: koksma.read_mask(mask_path), lambda: koksma.mask_quality(noise),
+                        lambda: koksma.mask_quality(np.arange(1024).reshape(32, 32) / 1024)])
+
+    def test_points(self):
+        points = koksma.generate("sobol:scramble=owen", 64, 2)
+        weights, index = np.full((64, 1), 1 / 64), np.arange(64.0)[:, None]
+        self.check([(said, lambda f=f, p=np.hstack(p): f(p)) for f in (koksma.measure, koksma.verify, koksma.identify) for said, p in (
+                        ("column 3 is 0.015625 in all rows", (points, weights)), ("column 3 sums to 1", (points[:48], points[:48, :1] / points[:48, 0].sum())))]
+                   + [("the first column counts the rows", lambda: koksma.identify(np.hstack((index, points)))),
+                      ("rows and columns swapped", lambda: koksma.measure(points.T, "l2-star"))],
+                   [lambda p=p: koksma.measure(p) for p in (points, [[0.5, 0.5]], koksma.generate("hammersley", 64))])
 
 
 if __name__ == "__main__":

@@ -96,7 +96,14 @@ class Vocabulary(unittest.TestCase):
                 (koksma.generate, ["random", 16, 2, 3, 4], {}, "the order is generate(pattern, n, dim, seed)"),
                 (koksma.generate, ["sobol,scramble=owen", 16], {}, "follow a colon"), (koksma.warp_points, [points, "disk"], {}, "concentric-disk"),
                 (koksma.optimise, ["star", 8], {"method": "x"}, "chosen by the measure"), (koksma.rank, ["ball"], {"spp": [4, 16]}, "for each number"),
-                (koksma.render, [{}], {}, "JSON"), (koksma.patterns, ["sobol"], {}, "lists all"), (koksma.plot_compare, [[points]], {}, "plot(a, b)")):
+                (koksma.render, [{}], {}, "JSON"), (koksma.patterns, ["sobol"], {}, "lists all"), (koksma.plot_compare, [[points]], {}, "plot(a, b)"),
+                (koksma.plot_compare, [["sobol", "random"]], {}, "*patterns"), (koksma.plot_compare, ["sobol", 64], {}, "n=256"),
+                (koksma.plot, ["sobol", 64], {}, "generate(pattern, n)"), (koksma.plot, [points, "star"], {}, "witness='star'"),
+                (koksma.plot, [points, "a.png"], {}, "save(path)"), (koksma.plot, [points[:, 0], points[:, 1]], {}, "np.column_stack((x, y))"),
+                (koksma.plot, [points, 16], {}, "columns=16"), (koksma.generate, ["poisson-disk", 16], {"d": 0.1}, '"poisson-disk:d=0.1"'),
+                (koksma.mask_quality, [np.linspace(-3, 3, 256).reshape(16, 16)], {}, "each equally often"),
+                (koksma.render, ["ball"], {"integrator": "pathtracer"}, "did you mean 'path'?"),
+                (koksma.measure, [points[:, 0]], {}, "x.reshape(-1, 2)")):
             with self.assertRaises((TypeError, koksma.ArgumentError)) as caught:
                 function(*values, **named)
             self.assertIn(said, str(caught.exception))
