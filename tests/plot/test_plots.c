@@ -109,6 +109,21 @@ static char *chart_text(const koksma_chart *chart)
     return text;
 }
 
+/* A title's lines end within no equation. */
+TEST_CASE(equations_stay_whole)
+{
+    const koksma_curve curve = {.n = 2, .xs = xs, .ys = xs};
+    for (int i = 0; i < 9; i++) {
+        char title[96];
+        snprintf(title, sizeof title, "%.*s: n = 256 n = 256 n = 256 n = 256 n = 256 n = 256 n = 256 n = 256", i,
+                 "abcdefgh");
+        char *svg = chart_text(&(koksma_chart){.title = title, .curves = &curve, .n_curves = 1});
+        assert_int_equal(count(svg, "n</text>") + count(svg, "n =</text>"), 0);
+        assert_true(count(svg, "n = 256</text>") > 1);
+        free(svg);
+    }
+}
+
 /* The colour and the dashes of the last <g> of lines: of the legend's last entry. */
 static void last_style(const char *svg, char *out, size_t size)
 {

@@ -138,11 +138,32 @@ static void stopped_phases_give_no_job(void **state)
     close_study(study, "given");
 }
 
+/* In whatever order jobs fail, the lowest one is told. */
+static void tells_the_lowest_failed_job(void **state)
+{
+    static const char *const jobs[] = {"05", "07", "02", "09"};
+    koksma__tasks tasks;
+    koksma__failures failures = {.n = 0}, run = {.n = 0};
+    koksma_study *study = open_study(NULL, true);
+    (void)state;
+    assert_ok(koksma__tasks_open(study, false, &tasks));
+    for (size_t i = 0; i < 4; i++) {
+        assert_ok(koksma__failures_count(&tasks, strtoul(jobs[i], NULL, 10), jobs[i], &failures));
+    }
+    assert_ok(koksma__failures_add(&run, &failures, &tasks));
+    assert_string_equal(run.text, "02");
+    koksma__failures_fini(&failures);
+    koksma__failures_fini(&run);
+    koksma__tasks_close(&tasks);
+    assert_ok(koksma_study_close(study));
+}
+
 int main(void)
 {
     char folder[] = "/tmp/koksma-stops-XXXXXX";
     const struct CMUnitTest tests[] = {cmocka_unit_test(stops_among_series), cmocka_unit_test(counts_what_was_done),
-                                       cmocka_unit_test(stopped_phases_give_no_job)};
+                                       cmocka_unit_test(stopped_phases_give_no_job),
+                                       cmocka_unit_test(tells_the_lowest_failed_job)};
     if (!mkdtemp(folder) || chdir(folder)) {
         return 1;
     }
