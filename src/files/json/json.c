@@ -284,20 +284,33 @@ static const char *key_at(const void *keys, size_t i)
 
 static koksma_status fail_unknown_field(const koksma__json_node *member, const char *key, const char *const *keys)
 {
-    static const char *const foreign[][2] = {
-        {"position", "eye"},    {"origin", "eye"},       {"from", "eye"},        {"look_at", "target"},
-        {"lookat", "target"},   {"to", "target"},        {"position", "centre"}, {"origin", "centre"},
-        {"location", "centre"}, {"translate", "centre"}, {"diffuse", "albedo"},  {"color", "albedo"},
-        {"colour", "albedo"},   {"power", "intensity"},  {"power", "radiance"},  {"intensity", "radiance"},
-        {"type", "kind"},       {"emission", "radiance"}};
-    const char *closest = koksma_closest_name(key, key_at, keys);
+    static const char *const foreign[][3] = {{"position", "eye"},
+                                             {"origin", "eye"},
+                                             {"from", "eye"},
+                                             {"look_at", "target"},
+                                             {"lookat", "target"},
+                                             {"to", "target"},
+                                             {"position", "centre"},
+                                             {"origin", "centre"},
+                                             {"location", "centre"},
+                                             {"translate", "centre"},
+                                             {"diffuse", "albedo"},
+                                             {"color", "albedo"},
+                                             {"colour", "albedo"},
+                                             {"power", "intensity", " A point of power P has P / (4 pi)"},
+                                             {"power", "radiance", " A surface of power P has P / (pi area)"},
+                                             {"intensity", "radiance"},
+                                             {"type", "kind"},
+                                             {"emission", "radiance"}};
+    const char *closest = koksma_closest_name(key, key_at, keys), *note = NULL;
     for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) { /* names of other renderers */
         for (size_t k = 0; keys[k] && !strcmp(key, foreign[i][0]); k++) {
+            note = strcmp(keys[k], foreign[i][1]) ? note : foreign[i][2];
             closest = strcmp(keys[k], foreign[i][1]) ? closest : keys[k];
         }
     }
     if (closest) {
-        return koksma__json_fail(member, "unknown field; did you mean '%s'?", closest);
+        return koksma__json_fail(member, "unknown field; did you mean '%s'?%s", closest, note ? note : "");
     }
     char known[512] = "";
     for (size_t i = 0; keys[i]; i++) {

@@ -101,6 +101,9 @@ size_t koksma__gltf_whole(const koksma__gltf_elements *e, size_t i);
 /* Returns component k of element i. For integers of a normalised accessor it lies between -1 and 1. */
 float koksma__gltf_real(const koksma__gltf_elements *e, size_t i, int k);
 
+/* gltf_schema.c. Names something of the file that isn't read as it stands there, in g->out->unknown. Error: MEMORY. */
+koksma_status koksma__gltf_name(koksma__gltf *g, const koksma__json_node *at, const char *text);
+
 /* gltf_schema.c. Names each member of the file's objects that glTF 2.0 does not have, in g->out->unknown. Error: MEMORY. */
 koksma_status koksma__gltf_name_unknown(koksma__gltf *g);
 

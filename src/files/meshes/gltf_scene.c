@@ -30,7 +30,8 @@
 typedef koksma__json_node field;
 
 enum { MAX_DEPTH = 512 /* of nodes */, TRIANGLES = 4, STRIP = 5, FAN = 6 };
-#define WIDEST 1e30 /* largest magnitude of a number of a node or material; positions and ranges are checked later */
+#define WIDEST 1e30  /* largest magnitude of a number of a node or material; positions and ranges are checked later */
+#define ROUNDED 0.01 /* what rounding may add to the length of a quaternion */
 
 static const char punctual[] = "extensions/KHR_lights_punctual";
 
@@ -46,7 +47,7 @@ typedef struct graph {
 
 /* A node's own transform: a matrix stored by columns, or x -> translation + rotation (scale x) with the rotation as a
    quaternion (glTF 2.0, 3.5.3). */
-static koksma_status own_matrix(const field *node, double out[12])
+static koksma_status own_matrix(koksma__gltf *g, const field *node, double out[12])
 {
     double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (koksma__json_has(node, "matrix")) {
@@ -60,6 +61,11 @@ static koksma_status own_matrix(const field *node, double out[12])
     KOKSMA__TRY(koksma__json_get_numbers(node, "rotation", false, -WIDEST, WIDEST, 4, q));
     KOKSMA__TRY(koksma__json_get_numbers(node, "scale", false, -WIDEST, WIDEST, 3, s));
     const double x = q[0], y = q[1], z = q[2], w = q[3];
+    KOKSMA__TRY(fabs(sqrt(x * x + y * y + z * z + w * w) - 1) < ROUNDED
+                    ? KOKSMA_OK
+                    : koksma__gltf_name(g, node,
+                                        "a rotation is a quaternion of length 1, and this has another length; "
+                                        "is it in degrees?"));
     const double turn[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
                             2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
                             2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
@@ -81,7 +87,7 @@ static koksma_status walk_node(graph *s, size_t i, const double parent[12], int 
     KOKSMA__JSON_FAIL_IF(depth == MAX_DEPTH, &node, "nodes are nested too deeply");
     KOKSMA__JSON_FAIL_IF(s->shown[i], &node, "the scene names this node twice");
     s->shown[i] = true;
-    KOKSMA__TRY(own_matrix(&node, own));
+    KOKSMA__TRY(own_matrix(g, &node, own));
     koksma__matrix_multiply(parent, own, s->matrices[i]);
     if (koksma__json_has(&node, "mesh")) {
         koksma__file_placement *to = koksma__list_add(&g->shown, 1, sizeof *to);
@@ -186,7 +192,10 @@ static koksma_status take_camera(const graph *s)
             if (koksma__gltf_find(&camera, "perspective", &found)) {
                 best = number;
                 memcpy(g->out->camera, s->matrices[i], sizeof g->out->camera);
-                status = koksma__json_get_number(&found, "yfov", true, 0, M_PI, &g->out->yfov_rad);
+                double *yfov = &g->out->yfov_rad;
+                status = koksma__json_get_number(&found, "yfov", true, -WIDEST, WIDEST, yfov);
+                KOKSMA__JSON_FAIL_IF(!status && !(*yfov >= 0 && *yfov <= M_PI), &found,
+                                     "yfov: it is in radians, 0 to 3.1416, not %g", *yfov);
             }
         }
     }
@@ -538,6 +547,19 @@ static koksma_status take_texture(koksma__gltf *g, size_t material, const field 
 
 /* ---- Materials ---------------------------------------------------------------------------------------------- */
 
+/* Names a factor that is beyond glTF's 0 to 1. what: what becomes of it. */
+static koksma_status name_factor(koksma__gltf *g, const field *f, const char *key, const double *values, size_t n,
+                                 const char *what)
+{
+    char text[128];
+    bool beyond = false;
+    for (size_t i = 0; i < n; i++) {
+        beyond |= !(values[i] >= 0 && values[i] <= 1);
+    }
+    snprintf(text, sizeof text, "%s beyond 0 to 1 is %s", key, what);
+    return beyond ? koksma__gltf_name(g, f, text) : KOKSMA_OK;
+}
+
 /* Reads factors and textures of colour, metal and roughness. */
 static koksma_status take_surface(koksma__gltf *g, size_t i, const field *f, koksma__file_material *m)
 {
@@ -547,6 +569,9 @@ static koksma_status take_surface(koksma__gltf *g, size_t i, const field *f, kok
         KOKSMA__TRY(koksma__json_get_numbers(&found, "baseColorFactor", false, -WIDEST, WIDEST, 4, colour));
         KOKSMA__TRY(koksma__json_get_number(&found, "metallicFactor", false, -WIDEST, WIDEST, &metallic));
         KOKSMA__TRY(koksma__json_get_number(&found, "roughnessFactor", false, -WIDEST, WIDEST, &roughness));
+        KOKSMA__TRY(name_factor(g, &found, "baseColorFactor", colour, 4, "clamped"));
+        KOKSMA__TRY(name_factor(g, &found, "metallicFactor", &metallic, 1, "clamped"));
+        KOKSMA__TRY(name_factor(g, &found, "roughnessFactor", &roughness, 1, "clamped"));
         KOKSMA__TRY(take_texture(g, i, &found, "baseColorTexture", &m->colour_map));
         KOKSMA__TRY(take_texture(g, i, &found, "metallicRoughnessTexture", &m->surface_map));
     }
@@ -567,6 +592,7 @@ static koksma_status take_emission(koksma__gltf *g, size_t i, const field *f, ko
     double glow[3] = {0, 0, 0}, times = 1;
     field found;
     KOKSMA__TRY(koksma__json_get_numbers(f, "emissiveFactor", false, -WIDEST, WIDEST, 3, glow));
+    KOKSMA__TRY(name_factor(g, f, "emissiveFactor", glow, 3, "not glTF, and is taken as it stands"));
     KOKSMA__TRY(take_texture(g, i, f, "emissiveTexture", &m->glow_map));
     if (koksma__gltf_find(f, "extensions/KHR_materials_emissive_strength", &found)) {
         KOKSMA__TRY(koksma__json_get_number(&found, "emissiveStrength", false, 0, 1e6, &times));

@@ -128,14 +128,10 @@ bool koksma__gltf_reads(const char *extension)
     return extensions[i] != NULL;
 }
 
-/* Names a member or value. To find its line takes time, so that in a huge file more of them only count. */
-static koksma_status name_one(koksma__gltf *g, const field *at, const char *what, const char *key,
-                              const char *closest, size_t kind)
+/* To find a line takes time, so that in a huge file what comes later only counts. */
+koksma_status koksma__gltf_name(koksma__gltf *g, const field *at, const char *text)
 {
     koksma__mesh_file *out = g->out;
-    char text[256], meant[KOKSMA__OR_MEANT];
-    snprintf(text, sizeof text, "%s'%.64s' of %s is unknown%s", what, key, kinds[kind].name,
-             koksma__or_meant(closest, meant));
     if (out->n_unknown && out->n_unknown * g->text_size > MOST_READ) {
         out->unknown[out->n_unknown - 1].n++;
         return KOKSMA_OK;
@@ -144,6 +140,16 @@ static koksma_status name_one(koksma__gltf *g, const field *at, const char *what
                ? KOKSMA_OK
                : koksma__unknown_add(&out->unknown, &out->n_unknown, out->path,
                                      (unsigned long)koksma__json_line_of(at), text);
+}
+
+/* Names a member or value that is unknown. */
+static koksma_status name_one(koksma__gltf *g, const field *at, const char *what, const char *key,
+                              const char *closest, size_t kind)
+{
+    char text[256], meant[KOKSMA__OR_MEANT];
+    snprintf(text, sizeof text, "%s'%.64s' of %s is unknown%s", what, key, kinds[kind].name,
+             koksma__or_meant(closest, meant));
+    return koksma__gltf_name(g, at, text);
 }
 
 static koksma_status check_value(koksma__gltf *g, const field *at, const char *key, const char *values, size_t length,

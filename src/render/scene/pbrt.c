@@ -800,8 +800,12 @@ static koksma_status judge_parameters(void *from)
     if (!strcmp(name, "Attribute")) {
         return KOKSMA_OK; /* take_attribute() knows whose parameters they are */
     }
-    KOKSMA__TRY(r->directive->kind == TYPE && *kind ? name_kind(r, name, kind) : KOKSMA_OK);
-    return koksma__pbrt_name_parameters(r->im, name, kind, r->parameters);
+    const bool typed = r->directive->kind != TYPE || koksma__pbrt_find(r->parameters, "type");
+    KOKSMA__TRY(r->directive->kind == TYPE && typed ? name_kind(r, name, kind) : KOKSMA_OK);
+    KOKSMA__TRY(koksma__pbrt_name_parameters(r->im, name, typed ? kind : NULL, r->parameters));
+    return typed ? KOKSMA_OK
+                 : koksma__import_fail(r->parameters->place, "%s: its type is missing, as in \"string type\" \"%s\"",
+                                       name, strcmp(name, "MakeNamedMedium") ? "diffuse" : "homogeneous");
 }
 
 /* Warns about a kind that pbrt-v4 does not have, and about parameters that nothing has looked up. n_before: the number of
