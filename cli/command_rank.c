@@ -489,7 +489,7 @@ static int ask_scene(const cli_arguments *arguments, request *r)
     koksma_scene *scene = NULL;
     size_t spp = 0, most = MOST_SCENE_SPP;
     strcpy(r->scene_spp, "16");
-    const koksma_status status = with ? KOKSMA_OK : koksma_scene_open(r->options.scene, &scene);
+    koksma_status status = with ? KOKSMA_OK : koksma_scene_open(r->options.scene, &scene);
     if (scene) {
         const koksma_scene_counts counts = koksma_scene_count(scene);
         koksma_render_options defaults;
@@ -503,7 +503,10 @@ static int ask_scene(const cli_arguments *arguments, request *r)
                     r->options.scene, r->options.integrator->name);
         }
         if (!cli_flag(arguments, "quiet")) {
-            cli_scene_warnings(arguments, r->options.scene, scene, &defaults, 3);
+            bool is_black;
+            const bool odd = cli_scene_warnings(arguments, r->options.scene, scene, &defaults, 3);
+            status = odd && !counts.lights ? KOKSMA_OK
+                                           : cli_look(arguments, r->options.scene, scene, &defaults, &is_black);
         }
         koksma_scene_close(scene);
         spp = counts.spp;

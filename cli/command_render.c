@@ -4,6 +4,7 @@
  * time. Before it starts it computes how much memory the image takes, and refuses an image that takes more than the
  * machine has. When it is interrupted it writes the image with the pixels that are done.
  */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -218,11 +219,11 @@ static koksma_status write_map(const char *path, koksma_image *map, const char *
 }
 
 /* Warns of a picture without anything in it, or with too much for 8 bits. */
-static void warn_of_flat(const cli_arguments *arguments, const koksma_image *image)
+static void warn_of_flat(const cli_arguments *arguments, const koksma_scene *scene, const koksma_image *image)
 {
-    const char *scene = arguments->operands[0];
+    const char *name = arguments->operands[0];
     const bool has_8_bits = cli_has_eight_bits(cli_text(arguments, "output", ""));
-    const float least = has_8_bits ? 1.5e-4F : 0; /* up to it, sRGB has the byte 0 */
+    const float least = has_8_bits ? 1.5e-4F : -INFINITY; /* up to it, sRGB has the byte 0 */
     const size_t channels = (size_t)image->channels, n = (size_t)image->width * (size_t)image->height * channels;
     size_t same = channels, black = 0, white = 0;
     while (black < n && image->pixels[black] <= least) {
@@ -234,12 +235,13 @@ static void warn_of_flat(const cli_arguments *arguments, const koksma_image *ima
     while (same < n && image->pixels[same] == image->pixels[same - channels]) {
         same++;
     }
-    if (black == n || (same == n && n > channels)) {
-        cli_say("render", "%s: warning: all pixels are %s", scene,
-                black == n ? "black; is the scene in view, and lit?" : "equal; is the camera inside a shape?");
+    if (black == n || koksma_render_is_black(scene, image)) {
+        cli_say_black(arguments, name, image->width, image->height);
+    } else if (same == n && n > channels) {
+        cli_say("render", "%s: warning: all pixels are equal; is the camera inside a shape?", name);
     } else if (has_8_bits && 2 * white > n) {
-        cli_say("render", "%s: warning: %.0f %% of the values are above 1 and cut off; .exr and .pfm keep them",
-                scene, 100 * (double)white / (double)n);
+        cli_say("render", "%s: warning: %.0f %% of the values are above 1 and cut off; .exr and .pfm keep them", name,
+                100 * (double)white / (double)n);
     }
 }
 
@@ -266,7 +268,7 @@ static int render_map(const cli_arguments *arguments, const koksma_scene *scene,
     status = koksma_image_write(cli_text(arguments, "output", ""), &replicates.image, metadata);
     status = status ? status : write_map(cli_text(arguments, "error-map", ""), &replicates.error, metadata);
     if (!cli_flag(arguments, "quiet")) {
-        warn_of_flat(arguments, &replicates.image);
+        warn_of_flat(arguments, scene, &replicates.image);
     }
     const int code = status ? cli_fail(arguments, status)
                             : put_row(arguments, options, adaptive, &replicates, replicates.rays, seconds);
@@ -294,7 +296,7 @@ static int render(const cli_arguments *arguments, const koksma_scene *scene, con
     const koksma_status written =
         done ? write_image(arguments, scene, options, &adaptive->options, &layers) : KOKSMA_OK;
     if (!status && !cli_flag(arguments, "quiet")) {
-        warn_of_flat(arguments, &layers.image);
+        warn_of_flat(arguments, scene, &layers.image);
     }
     koksma_layers_fini(&layers);
     if (!status && !written) {

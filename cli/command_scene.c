@@ -3,32 +3,11 @@
  * `koksma scene check`: reads a scene file, warns about what can be rendered but looks like a mistake, and prints
  * what the scene contains.
  */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli.h"
 #include "rendering.h"
-
-enum { SMALL = 32, SAMPLES = 16 }; /* the width of a small picture, and its samples a pixel */
-
-/* Renders a small picture. Returns whether nothing is in it. */
-static koksma_status look(const koksma_scene *scene, koksma_image *picture, bool *is_black)
-{
-    koksma_render_options options;
-    koksma_render_options_init(&options, scene);
-    options.height = (int)fmax(1, SMALL * (double)options.height / options.width);
-    options.width = SMALL;
-    options.spp = SAMPLES;
-    const koksma_status status = koksma_render(scene, &options, NULL, picture);
-    const size_t n = status ? 0 : (size_t)picture->width * (size_t)picture->height * (size_t)picture->channels;
-    size_t black = 0;
-    while (black < n && picture->pixels[black] <= 0) {
-        black++;
-    }
-    *is_black = n && black == n;
-    return status;
-}
 
 static int run(const cli_arguments *arguments)
 {
@@ -42,15 +21,12 @@ static int run(const cli_arguments *arguments)
     }
     cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);
-    bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, NULL, SIZE_MAX) > 0;
-    koksma_image picture = {0};
+    const bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, NULL, SIZE_MAX) > 0;
     bool is_black = false;
-    status = odd ? KOKSMA_OK : look(scene, &picture, &is_black);
-    if (is_black) {
-        cli_say("scene", "%s: warning: all pixels of %d x %d are black; is the scene in view, and lit?",
-                arguments->operands[1], picture.width, picture.height);
-    }
-    koksma_image_fini(&picture);
+    koksma_render_options options;
+    koksma_render_options_init(&options, scene);
+    status =
+        odd && !counts.lights ? KOKSMA_OK : cli_look(arguments, arguments->operands[1], scene, &options, &is_black);
     cli_row_text(rows, "scene", arguments->operands[1]);
     cli_row_whole(rows, "shapes", counts.shapes);
     cli_row_whole(rows, "meshes", counts.meshes);

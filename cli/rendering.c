@@ -163,6 +163,31 @@ size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, cons
     return n;
 }
 
+enum { SMALL = 32, SAMPLES = 16 }; /* the width of a small picture, and its samples a pixel */
+
+void cli_say_black(const cli_arguments *arguments, const char *name, int width, int height)
+{
+    cli_say(arguments->command->name, "%s: warning: all pixels of %d x %d are black; is the scene in view, and lit?",
+            name, width, height);
+}
+
+koksma_status cli_look(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                       const koksma_render_options *options, bool *is_black)
+{
+    koksma_image picture = {0};
+    koksma_render_options small = *options;
+    small.height = (int)fmax(1, SMALL * (double)small.height / small.width);
+    small.width = SMALL;
+    small.spp = SAMPLES;
+    const koksma_status status = koksma_render(scene, &small, NULL, &picture);
+    *is_black = !status && koksma_render_is_black(scene, &picture);
+    if (*is_black) {
+        cli_say_black(arguments, name, picture.width, picture.height);
+    }
+    koksma_image_fini(&picture);
+    return status;
+}
+
 /*
  * Reads the options of adaptive sampling for `koksma render` and refuses options that have no effect
  * with the chosen method. Adds the statistics of the adaptive method to the row of results. Writes --counts,

@@ -55,6 +55,11 @@ void cli_warn_unused(const cli_arguments *arguments, const char *name, const kok
 size_t cli_scene_warnings(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
                           const koksma_render_options *options, size_t most);
 
+/* Renders a small picture by the integrator of `options`, and says if it is black: *is_black. */
+koksma_status cli_look(const cli_arguments *arguments, const char *name, const koksma_scene *scene,
+                       const koksma_render_options *options, bool *is_black);
+void cli_say_black(const cli_arguments *arguments, const char *name, int width, int height);
+
 /* ---- Adaptive sampling -------------------------------------------------------------------------------- */
 
 #define CLI_ADAPTIVE_OPTIONS                                                                                         \

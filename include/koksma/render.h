@@ -256,6 +256,10 @@ KOKSMA_API bool koksma_use_is_spent(const koksma_scene *scene, const koksma_rend
 KOKSMA_API bool koksma_render_warning(const koksma_scene *scene, const koksma_render_options *options, size_t i,
                                       char *text, size_t size);
 
+/* Returns whether a picture of the scene has nothing in it: every value is at most 1e-6, and at most 1e-6 of the brightest
+   light. A light that is turned away leaves less than that by rounding. */
+KOKSMA_API bool koksma_render_is_black(const koksma_scene *scene, const koksma_image *image);
+
 /* A rendered image and further layers with values of its pixels. All layers have the same size; `image` has 3
    channels, or 1 for a scene without colour. */
 typedef struct koksma_layers {

@@ -6,6 +6,7 @@
  */
 #include "render/render.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "core/c_locale.h"
@@ -276,6 +277,25 @@ bool koksma_scene_warning(const koksma_scene *scene, size_t i, char *text, size_
 {
     KOKSMA__REQUIRE_OR(false, scene, text);
     return koksma__scene_warning(scene, NULL, i, text, size);
+}
+
+bool koksma_render_is_black(const koksma_scene *scene, const koksma_image *image)
+{
+    KOKSMA__REQUIRE_OR(false, scene, image);
+    double brightest = 0;
+    for (int k = 0; k < 3; k++) {
+        brightest = fmax(brightest, fmax(scene->ambient[k], scene->background[k]));
+        for (size_t i = 0; i < scene->n_lights; i++) {
+            brightest = fmax(brightest, scene->lights[i].radiance[k]);
+        }
+    }
+    const float least = (float)(1e-6 * fmin(brightest, 1));
+    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    size_t black = 0;
+    while (black < n && image->pixels[black] <= least) {
+        black++;
+    }
+    return n && black == n;
 }
 
 bool koksma_scene_unknown(const koksma_scene *scene, size_t i, char *text, size_t size)
