@@ -125,7 +125,8 @@ typedef struct koksma__camera {
     double eye[3], forward[3], right[3], down[3]; /* unit vectors */
     double shift[2];                              /* film coordinates of the middle of the image */
     double fov_rad;                               /* vertical field of view */
-    double height; /* the height that the image of an orthographic camera shows; 0: the camera is perspective */
+    double height;   /* the height that the image of an orthographic camera shows; 0: the camera is perspective */
+    bool by_degrees; /* the scene's file has the angle in degrees */
     /* lens_radius 0: a pinhole; the plane of focus is perpendicular to forward */
     double lens_radius, focus_distance;
     const koksma_warp *lens_map; /* map from the unit square to the lens */

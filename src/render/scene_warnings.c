@@ -88,7 +88,7 @@ static bool of_camera(const koksma_scene *scene, asked *a)
 {
     const koksma__camera *c = &scene->camera;
     const double degrees = c->fov_rad * 180 / 3.14159265358979;
-    return ((!scene->is_model || scene->paths) && degrees > 0 && degrees < 3.2 &&
+    return (c->by_degrees && degrees > 0 && degrees < 3.2 &&
             tell(a, "the camera sees %.3g degrees; is the angle in radians?", degrees)) ||
            (c->lens_radius > c->focus_distance &&
             tell(a, "the lens's radius, %.3g, exceeds the focus distance, %.3g; is its unit right?", c->lens_radius,

@@ -764,6 +764,7 @@ koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place
         !koksma__import_normalise(c->forward)) {
         return koksma__import_fail(place, "the camera's matrix has no inverse");
     }
+    c->by_degrees = true;
     if (lens->height > 0 && !(c->height > TINY && c->height <= FAR)) {
         return koksma__import_fail(place, "the height that the camera shows must be 1e-6 to 1e6");
     }

@@ -184,6 +184,7 @@ static koksma_status parse_view(const field *f, koksma__camera *camera)
                                      ? koksma__json_get_number(f, key, true, TINY, FAR, &camera->height)
                                      : koksma__json_get_number(f, "fov_deg", true, 0.01, 179, &fov_deg);
     camera->fov_rad = fov_deg * TURN / 360;
+    camera->by_degrees = true;
     return status;
 }
 
