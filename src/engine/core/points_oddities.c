@@ -8,6 +8,7 @@
 #include "core/c_locale.h"
 #include "core/hash.h"
 #include "core/points.h"
+#include "core/status.h"
 #include "core/visibility.h"
 
 enum {
@@ -137,13 +138,14 @@ static void look_for_twins(remarks *r, const koksma_points *points)
 
 size_t koksma_points_oddities(const koksma_points *points, char *text, size_t room)
 {
+    KOKSMA__REQUIRE_OR(0, points, text);
     remarks r = {.text = text, .room = room};
     if (room) {
         *text = '\0';
     }
-    if (points && points->xs && points->n == 1 && points->dim > 3) {
+    if (points->xs && points->n == 1 && points->dim > 3) {
         remark(&r, "one point in %d dimensions; a line is a point", points->dim);
-    } else if (points && points->xs && points->n > 1 && points->dim > 1) {
+    } else if (points->xs && points->n > 1 && points->dim > 1) {
         look_at_columns(&r, points);
         look_for_twins(&r, points);
         if (points->dim > 3 && 2 * points->n < (size_t)points->dim) {
