@@ -101,8 +101,9 @@ static koksma_status make_lane_materials(koksma__frame *f)
                                &t->u[1],          &t->u[2],          &t->v[0],          &t->v[1],
                                &t->v[2]};
     const size_t n_columns = sizeof columns / sizeof *columns;
-    float *room = calloc(n * n_columns, sizeof *room);
-    t->form = calloc(2 * n, sizeof *t->form);
+    float *room = calloc(n * n_columns + 16, sizeof *room);
+    t->form = calloc(2 * n + 16, sizeof *t->form);
+    t->n = (int32_t)n;
     t->albedo[0][0] = room;
     KOKSMA__REQUIRE_MEMORY(room && t->form, n * n_columns * sizeof *room);
     t->traits = t->form + n;

@@ -510,8 +510,14 @@ static void own_beams(const koksma__light_lanes *l, const koksma__hits *h, const
 void BATCH_NAME(beams)(const struct koksma__light_lanes *l, const koksma__hits *hits, const float (*u)[KOKSMA__BLOCK],
                        int n, struct koksma__beams *out)
 {
-    memset(out, 0, sizeof *out);
-    for (int i = 0; i < n; i++) {
+    memset(out->lit, 0, (size_t)n * sizeof *out->lit); /* nothing else is used of lanes that are not lit */
+    if (l->same >= 0) {
+        const int32_t visible = l->lights[l->same].visible;
+        for (int i = 0; i < STEP(n); i++) {
+            out->visible[i] = visible;
+        }
+    }
+    for (int i = 0; l->same < 0 && i < n; i++) {
         out->visible[i] = l->light[i] >= 0 && l->lights[l->light[i]].visible;
     }
     if (l->centres) {

@@ -28,6 +28,27 @@ static void find_squares(const koksma__lane_materials *t, const koksma__hits *re
     }
 }
 
+/* Looks 32-bit numbers up in a column of `size`, which can be read up to a multiple of 16. */
+INLINE void look_up(const void *restrict column, int32_t size, const int32_t *restrict at, int n, void *restrict to)
+{
+    const uint32_t *restrict x = column;
+    uint32_t *restrict y = to;
+#ifdef __AVX512F__
+    if (size <= 16) {
+        const __m512i all = _mm512_loadu_si512(x);
+        for (int i = 0; i < STEP(n); i += 16) {
+            _mm512_store_si512(y + i, _mm512_permutexvar_epi32(_mm512_load_si512(at + i), all));
+        }
+        return;
+    }
+#endif
+    (void)size;
+    LANES_APART
+    for (int i = 0; i < STEP(n); i++) {
+        y[i] = x[at[i]];
+    }
+}
+
 /* The forms that read parameters, and `derived` */
 #define DERIVED (1 << KOKSMA__FORM_LOBES | 1 << KOKSMA__FORM_COATED)
 #define NUMBERED (DERIVED | 1 << KOKSMA__FORM_FACETS)
@@ -38,7 +59,8 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
     const koksma__hits *restrict h = s->hits;
     KOKSMA__LANES(int32_t, at);
     KOKSMA__LANES(int32_t, odd);
-    int32_t traits = 0;
+    KOKSMA__LANES(int32_t, all);
+    int32_t traits = 0, lights = 0;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         const koksma__v3 out = koksma__v3_unit((koksma__v3){-rays->dx[i], -rays->dy[i], -rays->dz[i]});
@@ -47,13 +69,16 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
         s->out[2][i] = out.z;
         const int there = (h->primitive[i] >= 0) & (i < lanes);
         at[i] = there ? h->material[i] + 1 : 0;
+        lights |= there & (h->material[i] < 0);
         odd[i] = 0;
     }
+    look_up(t->form, t->n, at, n, s->form);
+    look_up(t->traits, t->n, at, n, all);
     for (int i = 0; i < STEP(n); i++) {
-        s->form[i] = t->form[at[i]];
-        traits |= t->traits[at[i]];
+        traits |= all[i];
     }
     s->traits = (unsigned)traits;
+    s->met_lights = lights;
     if (traits & KOKSMA__IS_CHECKER) {
         find_squares(t, h, at, n, odd);
     }
@@ -62,19 +87,14 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
         odd[i] = at[i] + odd[i] * second;
     }
     for (int k = 0; k < 3; k++) {
-        const float *restrict column = t->albedo[0][k];
-        LANES_APART
-        for (int i = 0; i < STEP(n); i++) {
-            s->albedo[k][i] = column[odd[i]];
-        }
+        /* the numbers of checkers reach into later columns */
+        look_up(t->albedo[0][k], traits & KOKSMA__IS_CHECKER ? INT32_MAX : t->n, odd, n, s->albedo[k]);
     }
     for (int k = 0; traits & NUMBERED && k < 4; k++) {
-        for (int i = 0; i < STEP(n); i++) {
-            s->parameters[k][i] = t->parameters[k][at[i]];
-        }
+        look_up(t->parameters[k], t->n, at, n, s->parameters[k]);
     }
-    for (int i = 0; traits & DERIVED && i < STEP(n); i++) {
-        s->derived[i] = t->derived[at[i]];
+    if (traits & DERIVED) {
+        look_up(t->derived, t->n, at, n, s->derived);
     }
 }
 

@@ -10,6 +10,18 @@
 void BATCH_NAME(pairs)(const float *restrict pairs, const uint32_t *restrict sample, int n, float *restrict x,
                        float *restrict y)
 {
+#ifdef __AVX512F__
+    const __m512i odd = _mm512_setr_epi32(1, 3, 5, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31);
+    for (int i = 0; i < STEP(n); i += 16) { /* pairs are gathered as doubles, 8 at once */
+        const __m512d low = _mm512_i32gather_pd(_mm256_load_si256((const void *)(sample + i)), pairs, 8);
+        const __m512d high = _mm512_i32gather_pd(_mm256_load_si256((const void *)(sample + i + 8)), pairs, 8);
+        const __m512 first = _mm512_castpd_ps(low), second = _mm512_castpd_ps(high);
+        _mm512_store_ps(x + i, _mm512_permutex2var_ps(first, _mm512_sub_epi32(odd, _mm512_set1_epi32(1)), second));
+        if (y) {
+            _mm512_store_ps(y + i, _mm512_permutex2var_ps(first, odd, second));
+        }
+    }
+#else
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         x[i] = pairs[2 * (size_t)sample[i]];
@@ -20,6 +32,7 @@ void BATCH_NAME(pairs)(const float *restrict pairs, const uint32_t *restrict sam
             y[i] = pairs[2 * (size_t)sample[i] + 1];
         }
     }
+#endif
 }
 
 void BATCH_NAME(to_disk)(int n, float *restrict x, float *restrict y)

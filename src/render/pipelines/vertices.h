@@ -23,6 +23,7 @@ enum {
 /* The properties of materials that kernels look up, one array per property, indexed by the material + 1; entry 0
    means no material. */
 typedef struct koksma__lane_materials {
+    int32_t n; /* of materials + 1; columns are followed by room for 16 numbers */
     int32_t *form, *traits;
     float *albedo[2][3], *parameters[4], *derived;
     /* The square of a checker at (u, v) has column floor(u[0] u + u[1] v + u[2]) and row floor(v[0] u + v[1] v +
@@ -36,6 +37,7 @@ typedef struct koksma__surfaces {
     const koksma__shading_material *materials; /* indexed by hits->material */
     const koksma__lane_materials *table;       /* the materials as arrays of their properties */
     unsigned traits;                           /* the bitwise "or" of the traits of all materials that were hit */
+    int32_t met_lights; /* not 0 if some lane hit a surface without a material, which is a light's */
     KOKSMA__LANES(int32_t, form);
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];

@@ -133,17 +133,13 @@ static void pass_light(koksma__paths *p, const koksma__hits *hits, int i, float 
     *passed += hits->t[i];
 }
 
-/* Finds what rays from the camera meet. If the camera sees no lights, rays pass through them, one after the other; hits are
-   then counted from the rays' own origins. What is beyond the far plane is not met. */
-static void meet_first(const koksma__frame *frame, koksma__paths *p, int n, koksma__hits *hits)
+/* Takes rays from the camera, which sees no lights, on through the lights that they hit, one after the other; hits are then
+   counted from the rays' own origins. */
+static void pass_lights(const koksma__geometry *g, koksma__paths *p, int n, koksma__hits *hits)
 {
-    const koksma__geometry *g = &frame->geometry;
-    const koksma_scene *scene = frame->scene;
-    const float end = (float)(scene->camera.far_clip - scene->camera.near_clip);
     const koksma__rays start = p->rays;
     _Alignas(64) koksma__lanes passed = {0};
-    g->closest(g, &p->rays, NULL, n, hits);
-    for (bool again = scene->hides_lights; again;) {
+    for (bool again = true; again;) {
         again = false;
         for (int i = 0; i < n; i++) {
             if (hits->primitive[i] >= 0 && g->light(g, hits->primitive[i]) >= 0) {
@@ -157,11 +153,25 @@ static void meet_first(const koksma__frame *frame, koksma__paths *p, int n, koks
     }
     for (int i = 0; i < n; i++) {
         hits->t[i] += passed[i];
-        if (scene->camera.far_clip > 0 && hits->t[i] > end) {
+    }
+    p->rays = start;
+}
+
+/* Finds what rays from the camera meet. What is beyond the far plane is not met. */
+static void meet_first(const koksma__frame *frame, koksma__paths *p, int n, koksma__hits *hits)
+{
+    const koksma__geometry *g = &frame->geometry;
+    const koksma__camera *camera = &frame->scene->camera;
+    const float end = (float)(camera->far_clip - camera->near_clip);
+    g->closest(g, &p->rays, NULL, n, hits);
+    if (frame->scene->hides_lights) {
+        pass_lights(g, p, n, hits);
+    }
+    for (int i = 0; camera->far_clip > 0 && i < n; i++) {
+        if (hits->t[i] > end) {
             hits->primitive[i] = hits->material[i] = -1;
         }
     }
-    p->rays = start;
 }
 
 /* Returns the multiple-importance weight of the light that ray i found by hitting the light with index `light`. pdf:
@@ -523,7 +533,7 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     if (trace->bounce || !frame->scene->hides_lights) {
         add_misses(frame, v);
     }
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; (v->surfaces.met_lights || frame->scene->glows) && i < n; i++) {
         if ((v->surfaces.form[i] < 0) & (hits->primitive[i] >= 0)) {
             add_emission(frame, v, i);
         } else if (frame->scene->glows && v->surfaces.form[i] >= 0) {
@@ -548,14 +558,20 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
 
 /* ---- One group -------------------------------------------------------------------------------------------- */
 
-static void hand_over(const koksma__frame *frame, const float *sums, size_t n, koksma__values *values)
+/* A NaN stays a NaN, because it is not above `clamp`. */
+static float clamped(float value, float clamp)
+{
+    return value > clamp ? clamp : value;
+}
+
+static void hand_over(const koksma__frame *frame, const float *restrict sums, size_t n, float *restrict rgb)
 {
     const float clamp = (float)frame->scene->clamp;
-    for (size_t i = 0; i < n; i++) {
-        for (int k = 0; k < frame->channels; k++) {
-            const float value = sums[3 * i + (size_t)k]; /* a NaN stays a NaN, because it is not above clamp */
-            values->rgb[i * (size_t)frame->channels + (size_t)k] = value > clamp ? clamp : value;
-        }
+    for (size_t i = 0; frame->channels == 3 && i < 3 * n; i++) {
+        rgb[i] = clamped(sums[i], clamp);
+    }
+    for (size_t i = 0; frame->channels == 1 && i < n; i++) {
+        rgb[i] = clamped(sums[3 * i], clamp);
     }
 }
 
@@ -609,7 +625,7 @@ static koksma_status trace_group(const koksma__frame *frame, void *opened, const
     for (size_t first = 0; !status && first < n; first += TOGETHER) {
         status = trace_samples(&trace, first, n - first < TOGETHER ? n : first + TOGETHER, values);
     }
-    hand_over(frame, scratch->sums, n, values);
+    hand_over(frame, scratch->sums, n, values->rgb);
     return status;
 }
 

@@ -80,7 +80,10 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
         return;
     }
     if (frame->flags->shadows) {
-        for (int i = 0; i < v->whole; i++) {
+        for (int i = 0; l->same >= 0 && i < v->whole; i++) {
+            aimed[i] = frame->lights.lights[l->same].shape;
+        }
+        for (int i = 0; l->same < 0 && i < v->whole; i++) {
             aimed[i] = l->light[i] < 0 ? -1 : frame->lights.lights[l->light[i]].shape;
         }
         shadows.aimed = aimed;
