@@ -24,7 +24,7 @@ function places(count) {
 const directions = (set) => new Set(set.map(([x, y]) => (Math.atan2(y, x) + 10).toFixed(6))).size;
 const inner = (set) => set.filter(([x, y]) => Math.hypot(x, y) < pixels / 3).length;
 for (const count of [15, 16])
-    console.log(count, 'places:', directions(places(count)), 'directions,', inner(places(count)), 'within a third of the radius');
+    console.log(count, 'places:', directions(places(count)), 'directions,', inner(places(count)), 'in the inner third');
 process.exit(directions(places(16)) === 8 && directions(places(15)) === 15 && inner(places(16)) === 8 ? 0 : 1);
 END
 node spiral.mjs
