@@ -299,6 +299,11 @@ static void look_around(const koksma__environment *e, const koksma__lanes *restr
         sines[i] = t.sine;
     }
     for (int i = 0; i < n; i++) {
+        const size_t row = (size_t)rows[i], column = (size_t)columns[i];
+        __builtin_prefetch(e->texels + (row * (size_t)e->width + column) * (size_t)e->channels);
+        __builtin_prefetch(e->column_cdf + row * e->stride + column);
+    }
+    for (int i = 0; i < n; i++) {
         const koksma__texel t = {rows[i], columns[i], sines[i]};
         put(koksma__environment_texel_radiance(e, t), i, radiance);
         pdf[i] = koksma__environment_texel_pdf(e, t);
@@ -309,6 +314,20 @@ static void look_around(const koksma__environment *e, const koksma__lanes *restr
 typedef struct tables {
     const float *cdf[KOKSMA__BLOCK], *coarse[KOKSMA__BLOCK];
 } tables;
+
+/* How many of KOKSMA__ENVIRONMENT_STEP ascending numbers are at most u; the first is. */
+INLINE int32_t numbers_up_to(const float *step, float u)
+{
+#ifdef __AVX512F__
+    return __builtin_popcount(_mm512_cmp_ps_mask(_mm512_loadu_ps(step), _mm512_set1_ps(u), _CMP_LE_OQ) | 1u);
+#else
+    int32_t count = 1;
+    for (int k = 1; k < KOKSMA__ENVIRONMENT_STEP; k++) {
+        count += step[k] <= u;
+    }
+    return count;
+#endif
+}
 
 /* Finds, in each of n tables of `cells` cells, the cell that contains u and the position of u within it. All lanes
    search the coarse tables by bisection in step, so that their cache misses overlap; then each counts how many of
@@ -324,17 +343,19 @@ static void find(const tables *t, int32_t cells, const float *u, int n, int32_t 
     for (int32_t left = steps; left > 1; left -= left / 2) {
         for (int i = 0; i < n; i++) {
             const int32_t middle = (found[i] + high[i]) / 2;
-            const bool above = t->coarse[i][middle] <= u[i];
-            found[i] = above ? middle : found[i];
-            high[i] = above ? high[i] : middle;
+            const int32_t above = -(t->coarse[i][middle] <= u[i]); /* all bits, in place of a branch */
+            found[i] = (middle & above) | (found[i] & ~above);
+            high[i] = (high[i] & above) | (middle & ~above);
         }
     }
     for (int i = 0; i < n; i++) {
+        const float *step = t->cdf[i] + (size_t)found[i] * KOKSMA__ENVIRONMENT_STEP;
+        __builtin_prefetch(step);
+        __builtin_prefetch(step + KOKSMA__ENVIRONMENT_STEP);
+    }
+    for (int i = 0; i < n; i++) {
         const float *step = t->cdf[i] + (size_t)found[i] * KOKSMA__ENVIRONMENT_STEP, at = u[i];
-        int32_t passed = 0;
-        for (int k = 1; k < KOKSMA__ENVIRONMENT_STEP; k++) {
-            passed += step[k] <= at;
-        }
+        const int32_t passed = numbers_up_to(step, at) - 1; /* step[0] is one of them */
         found[i] = found[i] * KOKSMA__ENVIRONMENT_STEP + passed;
         const float size = step[passed + 1] - step[passed], part = size > 0 ? (at - step[passed]) / size : 0.5f;
         within[i] = part < 1 ? part : 1 - 0x1p-24f;
