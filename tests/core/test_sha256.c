@@ -44,3 +44,25 @@ TEST_CASE(published_hashes_come_out)
     expect(many, 1000000, 4097, "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
     free(many);
 }
+
+/* FNV-1a and the finalizer of SplitMix64, of four strings at once, of any lengths and none. */
+TEST_CASE(four_hashes_are_those_of_one_string_each)
+{
+    char bytes[200];
+    for (size_t i = 0; i < sizeof bytes; i++) {
+        bytes[i] = (char)(37 * i + 11);
+    }
+    for (size_t trial = 0; trial < 500; trial++) {
+        const void *strings[4];
+        size_t sizes[4];
+        uint64_t found[4];
+        for (size_t k = 0; k < 4; k++) {
+            sizes[k] = trial * (2 * k + 3) % (k + 61) % (1 + trial % 53);
+            strings[k] = sizes[k] ? bytes + (trial + 7 * k) % 100 : NULL;
+        }
+        koksma__hash_four(strings, sizes, found);
+        for (size_t k = 0; k < 4; k++) {
+            assert_true(found[k] == koksma__hash(strings[k], sizes[k]));
+        }
+    }
+}

@@ -290,10 +290,14 @@ bool koksma__mesh_is_curved(const koksma__mesh *m)
 
 uint64_t koksma__mesh_hash(const koksma__mesh *m)
 {
-    const uint64_t parts[4] = {koksma__hash(m->vertices, 3 * m->n_vertices * sizeof *m->vertices),
-                               koksma__hash(m->indices, 3 * m->n_triangles * sizeof *m->indices),
-                               m->normals ? koksma__hash(m->normals, 3 * m->n_vertices * sizeof *m->normals) : 0,
-                               m->uvs ? koksma__hash(m->uvs, 2 * m->n_vertices * sizeof *m->uvs) : 0};
+    const void *const arrays[4] = {m->vertices, m->indices, m->normals, m->uvs};
+    const size_t sizes[4] = {3 * m->n_vertices * sizeof *m->vertices, 3 * m->n_triangles * sizeof *m->indices,
+                             m->normals ? 3 * m->n_vertices * sizeof *m->normals : 0,
+                             m->uvs ? 2 * m->n_vertices * sizeof *m->uvs : 0};
+    uint64_t parts[4];
+    koksma__hash_four(arrays, sizes, parts);
+    parts[2] = m->normals ? parts[2] : 0;
+    parts[3] = m->uvs ? parts[3] : 0;
     return koksma__hash(parts, sizeof parts);
 }
 
