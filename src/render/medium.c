@@ -62,6 +62,17 @@ koksma_status koksma__medium_check(const koksma_scene *scene)
     return KOKSMA_OK;
 }
 
+/* fmin and fmax of numbers that are not NaN, inline. */
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 /* The part of a ray o + t d inside the medium: it begins at t = first and has the given length; `speed` is the length
    of d. */
 typedef struct stretch {
@@ -78,8 +89,8 @@ static void cut_by_box(const double low[3], const double high[3], const double o
             *last = below > 0 || above < 0 ? 0 : *last;
             continue;
         }
-        *first = fmax(*first, (d[k] > 0 ? below : above) / d[k]);
-        *last = fmin(*last, (d[k] > 0 ? above : below) / d[k]);
+        *first = larger(*first, (d[k] > 0 ? below : above) / d[k]);
+        *last = smaller(*last, (d[k] > 0 ? above : below) / d[k]);
     }
 }
 
@@ -91,9 +102,9 @@ static void cut_by_ball(const double o[3], const double d[3], double *first, dou
     for (int k = 0; k < 3; k++) {
         q[k] = o[k] + middle * d[k];
     }
-    const double rest = 1 - koksma__dot(q, q), reach = sqrt(fmax(rest, 0) / square);
-    *first = fmax(*first, middle - reach);
-    *last = rest > 0 ? fmin(*last, middle + reach) : 0;
+    const double rest = 1 - koksma__dot(q, q), reach = sqrt(larger(rest, 0) / square);
+    *first = larger(*first, middle - reach);
+    *last = rest > 0 ? smaller(*last, middle + reach) : 0;
 }
 
 static stretch stretch_of(const koksma__medium *m, const float origin[3], const float direction[3], double end)
@@ -116,7 +127,7 @@ static stretch stretch_of(const koksma__medium *m, const float origin[3], const 
     }
     /* the length is limited to a finite number, so that a channel with the coefficient 0 has transmittance 1 at any
        length */
-    return (stretch){first, last > first ? fmin((last - first) * speed, DBL_MAX) : 0, speed};
+    return (stretch){first, last > first ? smaller((last - first) * speed, DBL_MAX) : 0, speed};
 }
 
 static double extinction(const koksma__medium *m, int k)
@@ -146,7 +157,7 @@ static int choose_channel(const float beta[3], double share[3], double *u)
     while (chosen < 2 && rest >= share[chosen]) {
         rest -= share[chosen++];
     }
-    *u = share[chosen] > 0 ? fmax(0, fmin(rest / share[chosen], 1 - 0x1p-30)) : 0;
+    *u = share[chosen] > 0 ? larger(0, smaller(rest / share[chosen], 1 - 0x1p-30)) : 0;
     return chosen;
 }
 

@@ -10,6 +10,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -85,12 +86,16 @@ static inline double koksma__log(double x)
     if (!(x > 0 && x <= DBL_MAX)) {
         return x == 0 ? -(double)INFINITY : x > 0 ? x : (double)NAN;
     }
-    int e;
-    double m = frexp(x, &e);
-    if (m < 0x1.6a09e667f3bcdp-1) {
-        m *= 2;
-        e--;
-    }
+    /* as by frexp, but inline: m is x with the exponent of 1/2 */
+    const double normal = x < DBL_MIN ? x * 0x1p54 : x;
+    uint64_t bits;
+    memcpy(&bits, &normal, sizeof bits);
+    const uint64_t half = (bits & 0xfffffffffffffu) | 0x3fe0000000000000u;
+    double m;
+    memcpy(&m, &half, sizeof m);
+    const bool low = m < 0x1.6a09e667f3bcdp-1;
+    const int e = (int)(bits >> 52) - (x < DBL_MIN ? 1076 : 1022) - low;
+    m = low ? 2 * m : m;
     const double f = (m - 1) / (m + 1), square = f * f;
     double sum = 0;
     for (int i = 23; i >= 3; i -= 2) {
