@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Guess: ImageBufAlgo.noise("gaussian") with seeds 1, 2, 3, ... gives independent pictures, as "white" does: the mean of n has a
-# variance of 1 / n.
+# Guess: ImageBufAlgo.noise("gaussian") with seeds 1, 2, 3, ... gives independent pictures, as "white" does: the mean of n
+# has a variance of 1 / n.
 # Seen: of seeds 1 and 2 a pixel in five is equal, bit for bit, and their correlation is .21 (1 - pi / 4): where the polar
 # method refuses a pair of numbers it goes on to those of the next seed. A mean over 16 seeds in a row has 1.5 times the
 # variance of independent ones. Seeds far apart have nothing in common.
