@@ -100,7 +100,7 @@ class Engine(_Base):  # type: ignore[misc, unused-ignore]
         try:
             super().__init__(d=d, optimization=optimization if scipys else None, seed=seed)
         except (TypeError, ValueError) as error:  # the base class's, of a seed or d, which may be an array
-            raise type(error)(one_line(str(error))) from None
+            raise (TypeError if type(error) is TypeError else ArgumentError)(one_line(str(error))) from None
         self.d: int = int(d)
         if not scipys:
             self._measure: str = str(optimization)

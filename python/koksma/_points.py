@@ -350,14 +350,11 @@ def as_points(points: npt.ArrayLike) -> PointArray:
     return array
 
 
-def doubted(points: npt.ArrayLike) -> PointArray:
-    """as_points of what is measured or tested: warns of what looks like no coordinates."""
-    array = as_points(points)
-    c_points, room = view(array), ctypes.create_string_buffer(4096)
-    core().koksma_points_oddities(byref(c_points), room, len(room))
-    for line in room.value.decode().splitlines():
-        warn(line)
-    return array
+def doubt(points: PointArray) -> None:
+    """Warns of what looks like no coordinates in points that could be measured: the first remark of the library's."""
+    c_points, room = view(points), ctypes.create_string_buffer(4096)
+    if core().koksma_points_oddities(byref(c_points), room, len(room)):
+        warn(room.value.decode().splitlines()[0])
 
 
 def numbers(name: str, values: npt.ArrayLike) -> PointArray:
@@ -676,9 +673,14 @@ def measure(points: npt.ArrayLike, measure: Union[str, Sequence[str]] = "star", 
             value = _quick_value(points, measure, threads)
             if value is not None:
                 return value
-        return _value_of(doubted(points), measure, warp=warp, threads=threads, time_limit=time_limit)
-    names, array = texts("measure", measure), doubted(points)
-    return {name: _value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in names}
+        array = as_points(points)
+        found = _value_of(array, measure, warp=warp, threads=threads, time_limit=time_limit)
+        doubt(array)
+        return found
+    names, array = texts("measure", measure), as_points(points)
+    values = {name: _value_of(array, name, warp=warp, threads=threads, time_limit=time_limit) for name in names}
+    doubt(array)
+    return values
 
 
 def _measure_sets(stack: PointArray, measure: Union[str, Sequence[str]], warp: Optional[str], threads: SupportsIndex,
@@ -776,9 +778,11 @@ def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding
     >>> all(f.holds for f in found if f.property == "latin")
     True
     """
-    array = doubted(points)  # a copy, perhaps, which the name keeps
+    array = as_points(points)  # a copy, perhaps, which the name keeps
     c_points = view(array)
-    return _findings(core().koksma_verify, byref(c_points), threads=threads, run_at=1)
+    findings = _findings(core().koksma_verify, byref(c_points), threads=threads, run_at=1)
+    doubt(array)
+    return findings
 
 
 def verify_sets(sets: Iterable[npt.ArrayLike], *, threads: SupportsIndex = 0) -> List[Finding]:
@@ -834,10 +838,11 @@ def identify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Ident
     ('equal', "Sobol' (Joe & Kuo 2008, new-joe-kuo-6.21201)", 5)
     """
     identities = s.Identities()
-    array = doubted(points)  # a copy, perhaps, which the name keeps
+    array = as_points(points)  # a copy, perhaps, which the name keeps
     c_points = view(array)
     try:
         call(core().koksma_identify, byref(c_points), byref(identities), threads=threads, run_at=1)
+        doubt(array)
         return [Identity(i.relation.decode(), i.what.decode(), i.spec.decode(), i.first, i.seed, i.detail.decode(),
                          core().koksma_identity_names(byref(i))) for i in identities.items[:identities.count]]
     finally:

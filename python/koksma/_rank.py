@@ -202,7 +202,7 @@ class _Renderer:
             pixels = np.ctypeslib.as_array(given.pixels, (given.height, given.width, given.channels)).copy()
             return self._put(self.process(pixels), out)
         except BaseException as error:  # noqa: BLE001
-            self.raised.append(error)
+            self.raised.append(ArgumentError(f"process: {error}") if type(error) is ArgumentError else error)
             return self._SYSTEM
 
     @staticmethod

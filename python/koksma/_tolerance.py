@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from contextlib import ExitStack
 from ctypes import byref
 from dataclasses import dataclass
@@ -250,10 +249,10 @@ def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional
                  for step in result.steps[:result.n_steps] for e in (step.estimate,))
     last = path[-1]
     if callable(function) and last.points > 1 and result.least == result.largest:
-        warnings.warn(f"all {last.points} values are {result.least:g}, of points in {dim} dimensions", RuntimeWarning, stacklevel=3)
+        warn(f"all {last.points} values are {result.least:g}, of points in {dim} dimensions", RuntimeWarning)
     elif last.points >= 4096 and result.top_share > 0.02:
-        warnings.warn(f"one of {last.points} values is {100 * result.top_share:.0f} % of the sum: the integral may be infinite, or its "
-                      "peak is narrow", RuntimeWarning, stacklevel=3)
+        warn(f"one of {last.points} values is {100 * result.top_share:.0f} % of the sum: the integral may be infinite, or its "
+             "peak is narrow", RuntimeWarning)
     return Integral(last.value, last.low, last.high, last.error, result.reached or not tolerance, last.points, result.replicates, dim, path,
                     result.rate, result.rate_error, math.nan if result.reached else result.needed, result.needed_low, result.needed_high,
                     canonical(pattern), result.parts)

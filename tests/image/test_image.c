@@ -164,6 +164,16 @@ TEST_CASE(doubts_by_construction)
     assert_string_equal(koksma_image_doubt(&colours, &better, true), "");
     colours.pixels[5] *= 1.5f;
     assert_non_null(strstr(koksma_image_doubt(&colours, &better, true), "has colours"));
+    koksma_image reversed = colours;
+    float bgr[3072];
+    for (size_t i = 0; i < 3072; i++) {
+        colours.pixels[i] *= i % 3 ? 1 : 1.4f;
+    }
+    for (size_t i = 0; i < 3072; i++) {
+        bgr[i] = colours.pixels[i / 3 * 3 + 2 - i % 3];
+    }
+    reversed.pixels = bgr;
+    assert_non_null(strstr(koksma_image_doubt(&reversed, &colours, true), "in reverse"));
     assert_ok(koksma_image_init(&other, 32, 31, 1));
     assert_string_equal(koksma_image_doubt(&other, &better, true), "");
     koksma_image_fini(&other);

@@ -40,7 +40,7 @@ class Doubts(unittest.TestCase):
                     ("its mean is 0.00", lambda: compare(IMAGE / 255, REFERENCE)), ("its mean is 3.", lambda: compare(IMAGE * np.pi, REFERENCE)),
                     ("image 1: its mean", lambda: compare([IMAGE, IMAGE * 255], REFERENCE)), ("same image", lambda: compare(IMAGE, IMAGE)),
                     ("are the two swapped?", lambda: compare(REFERENCE, IMAGE)), ("has colours", lambda: compare(IMAGE @ [0.2126, 0.7152, 0.0722], REFERENCE)),
-                    ("another scene", lambda: compare(IMAGE[::-1], REFERENCE))],
+                    ("in reverse", lambda: compare(IMAGE[..., ::-1], REFERENCE)), ("another scene", lambda: compare(IMAGE[::-1], REFERENCE))],
                    [lambda: compare(IMAGE, REFERENCE), lambda: compare([IMAGE, IMAGE * 0.9], REFERENCE), lambda: compare(IMAGE * 1.1, REFERENCE)])
 
     def test_references_and_processes(self):

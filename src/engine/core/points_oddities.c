@@ -146,11 +146,11 @@ size_t koksma_points_oddities(const koksma_points *points, char *text, size_t ro
     if (points->xs && points->n == 1 && points->dim > 3) {
         remark(&r, "one point in %d dimensions; a line is a point", points->dim);
     } else if (points->xs && points->n > 1 && points->dim > 1) {
-        look_at_columns(&r, points);
-        look_for_twins(&r, points);
         if (points->dim > 3 && 2 * points->n < (size_t)points->dim) {
             remark(&r, "%zu points in %d dimensions; are rows and columns swapped?", points->n, points->dim);
         }
+        look_at_columns(&r, points);
+        look_for_twins(&r, points);
     }
     return r.n;
 }

@@ -11,6 +11,7 @@ enum { LEAST = 256 }; /* pixels, below which nothing is said of noise and factor
    their roughness, the difference between a pixel and the mean of its neighbours at the left and right. */
 typedef struct sums {
     double x, y, xx, xy, yy, rough_xx, rough_xy, rough_yy, n, inner;
+    double rgb, bgr; /* squared differences of the colours, and with those of the image in reverse */
     bool equal, grey;
 } sums;
 
@@ -38,6 +39,12 @@ static sums sums_of(const koksma_image *image, const koksma_image *reference)
         s.xy += x * y;
         s.yy += y * y;
         s.equal &= x == y;
+        for (size_t k = 0; image->channels == 3 && reference->channels == 3 && k < 3; k++) {
+            const double of = (double)reference->pixels[3 * p + k], same = (double)image->pixels[3 * p + k] - of,
+                         other = (double)image->pixels[3 * p + 2 - k] - of;
+            s.rgb += same * same;
+            s.bgr += other * other;
+        }
         s.grey |= lacks_colour(image, reference, p) || lacks_colour(reference, image, p);
         if (p % width && (p + 1) % width) {
             const double rough_x = roughness(image, p), rough_y = roughness(reference, p);
@@ -83,6 +90,9 @@ koksma__likeness koksma__image_likeness(const koksma_image *image, const koksma_
     if (whole > (s.yy / s.n - mean * mean) / 2) {
         return KOKSMA__LIKE_ANOTHER;
     }
+    if (4 * s.bgr < s.rgb) {
+        return KOKSMA__LIKE_REVERSED;
+    }
     /* If only the reference has noise, independent of the picture, rough_yy = rough_xx + that of the difference; if only
        the image has noise, the reverse. Half way between the reference has 3 times the image's variance. */
     if (order && !s.grey && 2 * (s.rough_yy - s.rough_xx) > s.rough_xx - 2 * s.rough_xy + s.rough_yy) {
@@ -99,6 +109,7 @@ const char *koksma_image_doubt(const koksma_image *image, const koksma_image *re
         [KOKSMA__LIKE_ITSELF] = "its luminance is that of the reference in all pixels; is it the same image?",
         [KOKSMA__LIKE_SCALED] = NULL,
         [KOKSMA__LIKE_ANOTHER] = "it differs from the reference by more than noise: another scene, view or exposure?",
+        [KOKSMA__LIKE_REVERSED] = "its colours are like the reference's in reverse: are they blue, green and red?",
         [KOKSMA__LIKE_SMOOTHER] = "it has less noise than the reference, which comes last; are the two swapped?",
         [KOKSMA__LIKE_GREY] =
             "only one of it and the reference has colours; errors are of luminance but for metrics of colours",

@@ -6,13 +6,14 @@
 #include <koksma/image.h>
 
 /* As the reference with noise; or, the first that holds: equal in all pixels; like it but for a factor; different by more
-   than noise (what noise leaves of the mean square difference is above half of the reference's variance); with less noise;
-   without its colours. */
+   than noise (what noise leaves of the mean square difference is above half of the reference's variance); with red and blue
+   exchanged; with less noise; without its colours. */
 typedef enum koksma__likeness {
     KOKSMA__LIKE_NOISE,
     KOKSMA__LIKE_ITSELF,
     KOKSMA__LIKE_SCALED,
     KOKSMA__LIKE_ANOTHER,
+    KOKSMA__LIKE_REVERSED,
     KOKSMA__LIKE_SMOOTHER,
     KOKSMA__LIKE_GREY,
 } koksma__likeness;
