@@ -74,6 +74,10 @@ static int parse_new(job *j)
     o->levels = (int)levels;
     snprintf(j->recipe.filter, KOKSMA_MASK_MAX_TEXT, "%s", cli_text(j->arguments, "filter", "gaussian:sigma=1"));
     snprintf(j->recipe.from, KOKSMA_MASK_MAX_TEXT, "%s", from);
+    if (!strcmp(j->recipe.filter, "gaussian") && !cli_flag(j->arguments, "quiet")) {
+        cli_say("mask",
+                "note: gaussian is the pixel filter; gaussian:sigma=1, in pixels, is the filter of most masks");
+    }
     koksma_status status = koksma_mask_filter_parse(j->recipe.filter, &o->filter);
     if (!status && *from) {
         status = koksma_mask_read(from, o->space, &j->first);
@@ -311,6 +315,28 @@ static int put_offsets(const cli_arguments *arguments, cli_rows *rows, const cha
     return status ? cli_fail(arguments, status) : CLI_YES;
 }
 
+/* Says so if the first number of each pixel, as a mask of its own, is better than the whole: the four masks of an RGBA
+   picture. */
+static void tell_channels(const char *path, const koksma_mask *mask, const koksma_mask_filter *filter, double ratio,
+                          const koksma_run *run)
+{
+    const koksma_mask_space *alone = koksma_mask_space_at(0), *space = mask->space;
+    const size_t n = (size_t)mask->width * (size_t)mask->height;
+    float *values = malloc(n * sizeof *values);
+    koksma_mask_quality q;
+    for (size_t i = 0; values && i < n; i++) {
+        values[i] = (float)((mask->values[i * (size_t)space->dim] - space->low) / (space->high - space->low));
+    }
+    if (values && !koksma_mask_measure(mask->width, mask->height, alone, values, filter, tests_of(alone), run, &q) &&
+        q.error / q.white < 0.9 * ratio) {
+        cli_say("mask",
+                "%s: warning: read as %s; the first number alone has the ratio %.3g: are the %d numbers masks of "
+                "their own?",
+                path, space->name, q.error / q.white, space->dim);
+    }
+    free(values);
+}
+
 /* Measures a mask with each filter. */
 static int put_filters(const cli_arguments *arguments, cli_rows *rows, const char *path, const koksma_mask *mask,
                        const koksma_run *run)
@@ -329,8 +355,11 @@ static int put_filters(const cli_arguments *arguments, cli_rows *rows, const cha
         status = status ? status
                         : koksma_mask_measure(mask->width, mask->height, mask->space, mask->values, &filter,
                                               (int)tests, run, &q);
-        code = status ? cli_fail(arguments, status)
-                      : put_quality(rows, path, mask, text, &q, !i && !cli_flag(arguments, "quiet"));
+        const bool warn = !i && !cli_flag(arguments, "quiet");
+        if (!status && warn && mask->space->dim > 1) {
+            tell_channels(path, mask, &filter, q.error / q.white, run);
+        }
+        code = status ? cli_fail(arguments, status) : put_quality(rows, path, mask, text, &q, warn);
     }
     return code;
 }

@@ -273,8 +273,10 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
             const bool as_pattern =
                 options && (cli_option_of(options, "patterns") || cli_option_of(options, "pattern"));
             const bool as_filter = options && !strcmp(arguments->command->name, "mask");
+            const bool as_first = options && !strcmp(arguments->command->name, "optimise");
             return say_known(word, files[i].holds,
-                             as_filter    ? "--filter file:"
+                             as_first     ? "koksma optimise star --from "
+                             : as_filter  ? "--filter file:"
                              : as_pattern ? "-p file:"
                                           : files[i].before,
                              files[i].after, text);
@@ -341,6 +343,7 @@ static const struct {
     {NULL, "--warp disk", "concentric-disk and polar-disk map to it"},
     {NULL, "--curve spectrum", "power is the spectrum"},
     {"mask", "'check' and files", "a size is --size 64x64"},
+    {"integrate", "ended with exit code", "it gets 2 coordinates a line, or as many as -d says"},
     {"integrate", "no integrand '", "--with takes a program for one's own"},
     {"integrate", "are more than --max-points", "raise that, or lower -n"},
     {"optimise", "which differs from -n or -d", "leave these out"},

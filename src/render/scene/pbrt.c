@@ -1005,6 +1005,20 @@ static koksma_status set_medium(reader *r)
     return KOKSMA_OK;
 }
 
+/* Whether the text has a line that begins with WorldEnd, which pbrt-v4 does not have. */
+static bool is_of_v3(const char *text, size_t size)
+{
+    static const char end[] = "\nWorldEnd";
+    const size_t length = sizeof end - 1;
+    for (const char *at = text; size >= length && (at = memchr(at, '\n', size - length + 1 - (size_t)(at - text)));
+         at++) {
+        if (!memcmp(at, end, length)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size)
 {
     reader r = {.im = im,
@@ -1044,6 +1058,10 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
                                              "%zu AttributeBegin or ObjectBegin without an end: what follows keeps "
                                              "their transforms and materials",
                                              r.n_stack);
+    if (status == KOKSMA_MALFORMED && is_of_v3(text, size) && !strstr(koksma_error_text(), "pbrt-v3")) {
+        status = koksma__fail(status, "%s; the file is of pbrt-v3: 'pbrt --upgrade FILE' prints one of pbrt-v4",
+                              koksma_error_text());
+    }
     status = status ? status : check_media(&r);
     status = status ? status : set_camera(&r);
     status = status ? status : set_medium(&r);
