@@ -73,12 +73,6 @@ static double larger(double a, double b)
     return a > b ? a : b;
 }
 
-/* The part of a ray o + t d inside the medium: it begins at t = first and has the given length; `speed` is the length
-   of d. */
-typedef struct stretch {
-    double first, length, speed;
-} stretch;
-
 /* Narrows [*first, *last] to where o + t d is in a box. */
 static void cut_by_box(const double low[3], const double high[3], const double o[3], const double d[3], double *first,
                        double *last)
@@ -107,7 +101,8 @@ static void cut_by_ball(const double o[3], const double d[3], double *first, dou
     *last = rest > 0 ? smaller(*last, middle + reach) : 0;
 }
 
-static stretch stretch_of(const koksma__medium *m, const float origin[3], const float direction[3], double end)
+koksma__stretch koksma__medium_stretch(const koksma__medium *m, const float origin[3], const float direction[3],
+                                       double end)
 {
     static const double low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
     const double o[3] = {(double)origin[0], (double)origin[1], (double)origin[2]};
@@ -127,21 +122,16 @@ static stretch stretch_of(const koksma__medium *m, const float origin[3], const 
     }
     /* the length is limited to a finite number, so that a channel with the coefficient 0 has transmittance 1 at any
        length */
-    return (stretch){first, last > first ? smaller((last - first) * speed, DBL_MAX) : 0, speed};
-}
-
-static double extinction(const koksma__medium *m, int k)
-{
-    return m->absorption[k] + m->scattering[k];
+    return (koksma__stretch){first, last > first ? smaller((last - first) * speed, DBL_MAX) : 0, speed};
 }
 
 void koksma__medium_transmittance(const koksma__medium *m, const float o[3], const float d[3], double end,
                                   float out[3])
 {
-    const stretch inside = stretch_of(m, o, d, end);
+    const koksma__stretch inside = koksma__medium_stretch(m, o, d, end);
     for (int k = 0; k < 3; k++) {
-        const bool same = k > 0 && extinction(m, k) == extinction(m, k - 1);
-        out[k] = same ? out[k - 1] : (float)koksma__exp(-extinction(m, k) * inside.length);
+        const bool same = k > 0 && koksma__medium_extinction(m, k) == koksma__medium_extinction(m, k - 1);
+        out[k] = same ? out[k - 1] : (float)koksma__exp(-koksma__medium_extinction(m, k) * inside.length);
     }
 }
 
@@ -168,16 +158,16 @@ bool koksma__medium_sample(const koksma__medium *m, const float o[3], const floa
         koksma__medium_transmittance(m, o, d, end, weight);
         return false;
     }
-    const bool grey = extinction(m, 0) == extinction(m, 1) && extinction(m, 0) == extinction(m, 2);
+    const bool grey = koksma__medium_is_grey(m);
     double share[3] = {0}, rest = (double)u;
-    const double chosen = extinction(m, grey ? 0 : choose_channel(beta, share, &rest));
-    const stretch inside = stretch_of(m, o, d, end);
+    const double chosen = koksma__medium_extinction(m, grey ? 0 : choose_channel(beta, share, &rest));
+    const koksma__stretch inside = koksma__medium_stretch(m, o, d, end);
     const double s = chosen > 0 ? -koksma__log(1 - rest) / chosen : (double)INFINITY;
     const bool scatters = s < inside.length;
     double passed[3], density = 0;
     for (int k = 0; k < 3 && !grey; k++) {
-        passed[k] = koksma__exp(-extinction(m, k) * (scatters ? s : inside.length));
-        density += share[k] * (scatters ? extinction(m, k) : 1) * passed[k];
+        passed[k] = koksma__exp(-koksma__medium_extinction(m, k) * (scatters ? s : inside.length));
+        density += share[k] * (scatters ? koksma__medium_extinction(m, k) : 1) * passed[k];
     }
     for (int k = 0; k < 3; k++) {
         weight[k] = (float)(grey ? (scatters ? m->scattering[k] / chosen : 1)

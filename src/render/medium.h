@@ -13,6 +13,26 @@ void koksma__medium_init(koksma__medium *medium, const double absorption[3], con
    MALFORMED. */
 koksma_status koksma__medium_check(const koksma_scene *scene);
 
+/* The part of a ray o + t d inside the medium: it begins at t = first and has the given length; `speed` is the length
+   of d. */
+typedef struct koksma__stretch {
+    double first, length, speed;
+} koksma__stretch;
+
+koksma__stretch koksma__medium_stretch(const koksma__medium *medium, const float o[3], const float d[3], double end);
+
+static inline double koksma__medium_extinction(const koksma__medium *m, int k)
+{
+    return m->absorption[k] + m->scattering[k];
+}
+
+/* Whether the medium takes equal parts of all channels. */
+static inline bool koksma__medium_is_grey(const koksma__medium *m)
+{
+    const double first = koksma__medium_extinction(m, 0);
+    return first == koksma__medium_extinction(m, 1) && first == koksma__medium_extinction(m, 2);
+}
+
 /* The part of the light along o + t d, 0 < t < end, that the medium neither absorbs nor scatters; end may be infinite. */
 void koksma__medium_transmittance(const koksma__medium *medium, const float o[3], const float d[3], double end,
                                   float out[3]);

@@ -34,6 +34,8 @@ REASONS = {
     "batch_surfaces": NO_BLEND,
     "batch_background": NO_BLEND,
     "batch_collect": NO_BLEND,
+    "batch_travel": NO_BLEND,
+    "batch_attenuate": NO_BLEND,
     "kernel_far_corners": "the loop over corners is packed; what is scalar is the largest of its lanes, once for each block of 128, "
                           "and the unrolled rest",
     "batch_closest": "the loops over lanes are packed; what is the same for all rays of a shape is computed before them, once for each "

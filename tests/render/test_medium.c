@@ -5,6 +5,7 @@
  */
 #include "render/integrators/integrators.h"
 #include "render/medium.h"
+#include "render/pipelines/vertices.h"
 #include "rendering.h"
 
 #define EYE(fov) "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': " fov "}, "
@@ -361,4 +362,94 @@ TEST_CASE(other_integrators_refuse_media)
     scene = scene_of(EYE("30") "'medium': {'sigma_s': 5}, " NOTHING "}");
     assert_int_equal(koksma_scene_set_sky(scene, NULL, 1), KOKSMA_MALFORMED);
     koksma_scene_close(scene);
+}
+
+static double coefficient(void)
+{
+    return uniform(0, 1) < 0.3 ? 0 : uniform(0.01, 2);
+}
+
+static koksma__medium random_medium(int round)
+{
+    const bool grey = round % 2;
+    const double a = coefficient(), b = coefficient();
+    double absorption[3], scattering[3];
+    koksma__medium m;
+    for (int k = 0; k < 3; k++) {
+        absorption[k] = grey ? a : coefficient();
+        scattering[k] = round % 5 == 4 ? 0 : grey ? b : coefficient();
+    }
+    koksma__medium_init(&m, absorption, scattering, 0.2);
+    m.in_shape = round % 7 > 4;
+    m.is_ball = round % 7 == 6;
+    for (int k = 0; k < 3; k++) {
+        m.low[k] = round % 3 ? uniform(-2, 0) : -INFINITY;
+        m.high[k] = round % 3 ? uniform(0, 2) : INFINITY;
+        m.inverse[5 * k] = uniform(0.3, 2);
+        m.inverse[4 * k + 3] = uniform(-1, 1);
+    }
+    return m;
+}
+
+/* Blocks of rays in media of all kinds, also along axes and with channels that carry nothing, beside single rays: every
+   bit is the same. */
+TEST_CASE(blocks_of_rays_travel_as_single_rays)
+{
+    for (int round = 0; round < test_repeats(210, 42); round++) {
+        const koksma__medium m = random_medium(round);
+        koksma__paths first;
+        koksma__hits met;
+        koksma__shadows shadows;
+        _Alignas(64) koksma__lanes u;
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            float *const o[3] = {&first.rays.ox[i], &first.rays.oy[i], &first.rays.oz[i]};
+            float *const d[3] = {&first.rays.dx[i], &first.rays.dy[i], &first.rays.dz[i]};
+            const int axis = i % 4;
+            for (int k = 0; k < 3; k++) {
+                *o[k] = (float)uniform(-3, 3);
+                *d[k] = axis == 3 || k == axis ? (float)uniform(-2, 2) : 0;
+                first.beta[k][i] = i % 9 == k || i % 31 == 0 ? 0 : (float)uniform(0, 1);
+            }
+            u[i] = i ? (float)uniform(0, 1) * (1 - 0x1p-24f) : 0;
+            met.primitive[i] = i % 3 ? 2 : -1;
+            met.t[i] = (float)uniform(0, 4);
+            met.material[i] = 1;
+            met.px[i] = *o[0];
+            met.py[i] = *o[1];
+            met.pz[i] = *o[2];
+            shadows.dx[i] = *d[0];
+            shadows.dy[i] = *d[1];
+            shadows.dz[i] = *d[2];
+        }
+        for (int k = 0; k < 4; k++) {
+            const koksma__batch_table *batch = koksma__batch_find(isas[k]);
+            koksma__paths paths = first;
+            koksma__hits hits = met;
+            _Alignas(64) koksma__lanes light[3];
+            if (!batch) {
+                continue;
+            }
+            batch->travel(&m, u, 7, KOKSMA__BLOCK, &paths, &hits);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                light[0][i] = light[1][i] = light[2][i] = 1;
+            }
+            batch->attenuate(&m, &met, &shadows, KOKSMA__BLOCK, light);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                const float o[3] = {first.rays.ox[i], first.rays.oy[i], first.rays.oz[i]};
+                const float d[3] = {first.rays.dx[i], first.rays.dy[i], first.rays.dz[i]};
+                const float beta[3] = {first.beta[0][i], first.beta[1][i], first.beta[2][i]};
+                const double end = met.primitive[i] < 0 ? (double)INFINITY : (double)met.t[i];
+                float t, weight[3], passed[3];
+                const bool in = koksma__medium_sample(&m, o, d, end, u[i], beta, &t, weight);
+                koksma__medium_transmittance(&m, o, d, 1, passed);
+                assert_int_equal(hits.material[i], in ? 7 : 1);
+                assert_true(!in || hits.t[i] == t);
+                for (int c = 0; c < 3; c++) {
+                    const float expected = beta[c] * weight[c];
+                    assert_true(paths.beta[c][i] == expected || (isnan(expected) && isnan(paths.beta[c][i])));
+                    assert_true(light[c][i] == passed[c]);
+                }
+            }
+        }
+    }
 }

@@ -10,7 +10,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -81,27 +80,37 @@ static inline double koksma__exp(double x)
 /* log(x) = e ln 2 + 2 artanh((m - 1) / (m + 1)), x = 2^e m, m from sqrt(1/2) to sqrt(2): the series
    of artanh in odd powers up to the 23rd, whose remainder is less than 1e-18 of the sum. The error is at most two
    units in the last place. */
+static inline double koksma__log_scaled(double x, int by) /* of x 2^by; x is a positive normal number */
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    const uint64_t half = (bits & 0xfffffffffffffu) | 0x3fe0000000000000u; /* the bits of x 2^-e, from 1/2 to 1 */
+    double m;
+    memcpy(&m, &half, sizeof m);
+    const int low = m < 0x1.6a09e667f3bcdp-1;
+    const double e = (double)((int)(bits >> 52) - 1022 - low + by);
+    m = low ? 2 * m : m;
+    const double f = (m - 1) / (m + 1), square = f * f;
+    double sum = 1.0 / 23;
+    sum = sum * square + 1.0 / 21;
+    sum = sum * square + 1.0 / 19;
+    sum = sum * square + 1.0 / 17;
+    sum = sum * square + 1.0 / 15;
+    sum = sum * square + 1.0 / 13;
+    sum = sum * square + 1.0 / 11;
+    sum = sum * square + 1.0 / 9;
+    sum = sum * square + 1.0 / 7;
+    sum = sum * square + 1.0 / 5;
+    sum = sum * square + 1.0 / 3;
+    return e * 0x1.62e42feep-1 + (2 * f + (2 * f * square * sum + e * 0x1.a39ef35793c76p-33));
+}
+
 static inline double koksma__log(double x)
 {
     if (!(x > 0 && x <= DBL_MAX)) {
         return x == 0 ? -(double)INFINITY : x > 0 ? x : (double)NAN;
     }
-    /* as by frexp, but inline: m is x with the exponent of 1/2 */
-    const double normal = x < DBL_MIN ? x * 0x1p54 : x;
-    uint64_t bits;
-    memcpy(&bits, &normal, sizeof bits);
-    const uint64_t half = (bits & 0xfffffffffffffu) | 0x3fe0000000000000u;
-    double m;
-    memcpy(&m, &half, sizeof m);
-    const bool low = m < 0x1.6a09e667f3bcdp-1;
-    const int e = (int)(bits >> 52) - (x < DBL_MIN ? 1076 : 1022) - low;
-    m = low ? 2 * m : m;
-    const double f = (m - 1) / (m + 1), square = f * f;
-    double sum = 0;
-    for (int i = 23; i >= 3; i -= 2) {
-        sum = sum * square + 1.0 / i;
-    }
-    return e * 0x1.62e42feep-1 + (2 * f + (2 * f * square * sum + e * 0x1.a39ef35793c76p-33));
+    return x < DBL_MIN ? koksma__log_scaled(x * 0x1p54, -54) : koksma__log_scaled(x, 0);
 }
 
 /* cos(r + rest) and sin(r + rest) for |r| <= pi/4 and `rest` below its last digit: Taylor's series up to r^18, which leave

@@ -199,6 +199,7 @@ struct koksma__lens;
 struct koksma__vertices;
 struct koksma__paths;
 struct koksma__environment;
+struct koksma__medium;
 
 typedef struct koksma__batch_table {
 #define KERNEL(result, name, arguments) result(*name) arguments;

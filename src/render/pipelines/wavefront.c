@@ -493,7 +493,7 @@ static koksma_status travel(const koksma__trace *trace, koksma__paths *paths, ko
     const float *us;
     if (trace->frame->scene->medium.is_there) {
         KOKSMA__TRY(koksma__wavefront_draw(trace, use, &us));
-        koksma__wavefront_travel(trace->frame->scene, us, paths, v);
+        koksma__wavefront_travel(trace->frame, us, paths, v);
     }
     return KOKSMA_OK;
 }

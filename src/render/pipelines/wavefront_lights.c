@@ -90,7 +90,7 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
         frame->geometry.occlude(&frame->geometry, &v->hits, v->whole, &shadows);
         values->rays += (uint64_t)sampled;
     }
-    koksma__wavefront_attenuate(frame->scene, v, &shadows, reflected);
+    koksma__wavefront_attenuate(frame, v, &shadows, reflected);
     frame->batch->collect(&shadows, reflected, v);
 }
 
