@@ -118,14 +118,15 @@ static void same(const koksma__hits *a, const koksma__hits *b)
     assert_memory_equal(a->material, b->material, size);
 }
 
-/* Traces rays, then those on from the hits, then shadow rays from hit to hit; returns how many of those were blocked. */
+/* Traces rays, then those on from the hits, then shadow rays from hit to hit, of which `lit` in
+   5 carry light; returns how many would be blocked. */
 static int check(const koksma__batch_table *batch, const koksma__batch_shapes *plain,
-                 const koksma__batch_shapes *bundled, const koksma__rays *rays)
+                 const koksma__batch_shapes *bundled, const koksma__rays *rays, int lit)
 {
     KOKSMA__LANES(int32_t, aimed);
     koksma__hits a, b, next;
     koksma__rays on = *rays;
-    koksma__shadows shadows, dim;
+    koksma__shadows shadows, dim, bright;
     int blocked = 0;
     assert_int_equal(batch->closest(plain, rays, NULL, KOKSMA__BLOCK, &a),
                      batch->closest(bundled, rays, NULL, KOKSMA__BLOCK, &b));
@@ -143,17 +144,23 @@ static int check(const koksma__batch_table *batch, const koksma__batch_shapes *p
         shadows.dx[i] = a.px[to] - a.px[i];
         shadows.dy[i] = a.py[to] - a.py[i];
         shadows.dz[i] = a.pz[to] - a.pz[i];
-        shadows.light[i] = i % 5 ? 1 : 0;
+        shadows.light[i] = i % 5 < lit ? 1 : 0;
+        bright.light[i] = 1;
         aimed[i] = a.primitive[to];
         a.time[i] = rays->time[i];
     }
-    shadows.aimed = aimed;
+    shadows.aimed = bright.aimed = aimed;
+    memcpy(bright.dx, shadows.dx, sizeof bright.dx);
+    memcpy(bright.dy, shadows.dy, sizeof bright.dy);
+    memcpy(bright.dz, shadows.dz, sizeof bright.dz);
     dim = shadows;
+    batch->occlude(plain, &a, KOKSMA__BLOCK, &bright);
     batch->occlude(plain, &a, KOKSMA__BLOCK, &shadows);
     batch->occlude(bundled, &a, KOKSMA__BLOCK, &dim);
     assert_memory_equal(shadows.light, dim.light, sizeof dim.light);
     for (int i = 0; i < KOKSMA__BLOCK; i++) {
-        blocked += i % 5 && !(shadows.light[i] > 0);
+        assert_true(shadows.light[i] == (i % 5 < lit ? bright.light[i] : 0));
+        blocked += !(bright.light[i] > 0);
     }
     return blocked;
 }
@@ -174,7 +181,7 @@ TEST_CASE(bundles_change_no_bit)
         make_rays(list, offsets[round % 3], &rays);
         for (int k = 0; k < 4; k++) {
             const koksma__batch_table *batch = koksma__batch_find(isas[k]);
-            blocked += batch ? check(batch, &plain, &bundled, &rays) : 0;
+            blocked += batch ? check(batch, &plain, &bundled, &rays, round % 6) : 0;
         }
     }
     assert_true(blocked > 20 * ROUNDS);

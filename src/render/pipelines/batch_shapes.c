@@ -229,7 +229,8 @@ static void shade_bundles(const koksma__batch_shapes *shapes, const koksma__hits
     koksma__picks p;
     koksma__slabs s;
     koksma__hits some;
-    koksma__shadows mine = {.aimed = r->aimed ? aimed : NULL};
+    koksma__shadows mine;
+    mine.aimed = r->aimed ? aimed : NULL;
     koksma__slabs_of(o, d, shapes->size, n, &s);
     for (size_t b = 0; b < shapes->n_bundles; b++) {
         const koksma__batch_bundle *bundle = &shapes->bundles[b];
@@ -338,6 +339,8 @@ static void finish_all(const koksma__batch_shapes *shapes, const koksma__rays *r
     }
 }
 
+enum { FEW = 4 }; /* fewer shapes are not worth the copies */
+
 /* The shapes of a list that are in no bundle. */
 static size_t alone(const koksma__batch_shapes *shapes)
 {
@@ -380,8 +383,7 @@ int BATCH_NAME(closest)(const koksma__batch_shapes *shapes, const koksma__rays *
     return hit;
 }
 
-void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits *hits, int n,
-                         koksma__shadows *shadows)
+static void shade_all(const koksma__batch_shapes *shapes, const koksma__hits *hits, int n, koksma__shadows *shadows)
 {
     KOKSMA__LANES(int32_t, nowhere);
     for (int i = 0; i < STEP(n); i++) {
@@ -392,5 +394,43 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
     }
     if (shapes->n_bundles) {
         shade_bundles(shapes, hits, nowhere, n, shadows);
+    }
+}
+
+/* Shadow rays that carry no light are left out where those are many, and shapes not few. */
+void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits *hits, int n,
+                         koksma__shadows *shadows)
+{
+    KOKSMA__LANES(int32_t, flags);
+    KOKSMA__LANES(int32_t, aimed);
+    koksma__picks p;
+    koksma__hits some;
+    koksma__shadows lit;
+    if (shapes->n < FEW) {
+        shade_all(shapes, hits, n, shadows);
+        return;
+    }
+    for (int i = 0; i < STEP(n); i++) {
+        flags[i] = shadows->light[i] != 0;
+    }
+    koksma__batch_pick(flags, n, &p);
+    if (p.n > STEP(n) / 2) {
+        shade_all(shapes, hits, n, shadows);
+    } else if (p.n) {
+        koksma__batch_pull_whole(hits->px, &p, some.px);
+        koksma__batch_pull_whole(hits->py, &p, some.py);
+        koksma__batch_pull_whole(hits->pz, &p, some.pz);
+        koksma__batch_pull_whole(hits->time, &p, some.time);
+        koksma__batch_pull_whole(hits->primitive, &p, some.primitive);
+        koksma__batch_pull_whole(shadows->dx, &p, lit.dx);
+        koksma__batch_pull_whole(shadows->dy, &p, lit.dy);
+        koksma__batch_pull_whole(shadows->dz, &p, lit.dz);
+        koksma__batch_pull_whole(shadows->light, &p, lit.light);
+        lit.aimed = shadows->aimed ? aimed : NULL;
+        if (shadows->aimed) {
+            koksma__batch_pull_whole(shadows->aimed, &p, aimed);
+        }
+        shade_all(shapes, &some, koksma__batch_pulled(&p), &lit);
+        koksma__batch_push(lit.light, &p, shadows->light);
     }
 }
