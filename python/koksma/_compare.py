@@ -106,7 +106,7 @@ def metrics() -> List[Named]:
 def as_image(image: npt.ArrayLike) -> npt.NDArray[np.float32]:
     try:
         given = np.asanyarray(image)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, RuntimeError):
         raise ArgumentError(f"an image must be an array of real numbers, not {quoted(image)}") from None
     if isinstance(image, (str, bytes)):
         raise ArgumentError(f"an image must be an array, not the text {quoted(image)}; read_image(path) reads a file")

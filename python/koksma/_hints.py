@@ -96,6 +96,7 @@ _REMEDIES = (  # what functions ("": any) say, with FIRST for the name of its fi
     ("", r"points must be an array of real numbers, not \{['\"]", "np.column_stack(list(points.values())) joins columns"),
     ("", r"points must be an array of real numbers, not (\{|<generator|<map|<zip)", "np.array(list(points)) is one"),
     ("", r"points must be an array of real numbers, not Engine", "engine.random(n) draws them"),
+    ("", r"numbers, not tensor\(", "x.detach().cpu().numpy() is an array"),
     ("", r"points must not have masked", "points[~points.mask.any(axis=1)] leaves out what has a masked one"),
     ("", r"coordinate -?(nan|inf) is outside", "a value is missing, or was divided by 0"),
     ("", r"coordinate -.* is outside \[0,1\]", "points of [-0.5,0.5] are x + 0.5 here, those of [-1,1] (x + 1) / 2"),

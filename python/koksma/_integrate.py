@@ -252,6 +252,8 @@ def _estimates(function: Callable[[PointArray], npt.ArrayLike], source: Union[st
 def _doubt(integral: float, sizes: Sequence[int], estimates: npt.NDArray[np.float64], unbiased: bool) -> None:
     """Warns of an integral that is surely another: by the standard error at the largest size, where the sets have no bias; of
     one set by how little the estimates moved on the way there, the last fourfold of it above all."""
+    if not np.isfinite(estimates).all() or np.abs(estimates).max() > 1e100:
+        return
     order, means = np.argsort(sizes), estimates.mean(axis=0)
     n, moved = np.asarray(sizes)[order], means[order] - means[order[-1]]
     if len(estimates) > 1:

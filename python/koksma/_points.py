@@ -25,6 +25,7 @@ _DATA = -(-20 // ctypes.sizeof(_c_void_p) - 2) * ctypes.sizeof(_c_void_p)  # in 
 _capsule_pointer = ctypes.pythonapi.PyCapsule_GetPointer
 _capsule_pointer.argtypes, _capsule_pointer.restype = [ctypes.py_object, ctypes.c_char_p], _c_void_p
 _NO_REAL_NUMBERS = (type(None), complex, np.complexfloating, np.datetime64, np.timedelta64, str, bytes)
+_NO_COORDINATES = ("index", "idx", "id", "unnamed: 0", "weight", "weights", "seed", "trial")
 _WITNESS_KINDS = ("none", "box", "half-plane", "disk")
 _OF_SCIPY = {"CD": "l2-centered", "WD": "l2-wraparound", "MD": "l2-mixture", "L2-star": "l2-star"}
 _CLAIMS = ("deterministic", "sequence", "any-n", "stratified", "latin", "unbiased", "exchangeable", "min-distance", "centred",
@@ -325,14 +326,15 @@ def as_points(points: npt.ArrayLike) -> PointArray:
 
     What NumPy would cut down to a real number without being asked (the imaginary part, a date, a mask) is refused.
     """
-    if (type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size):
+    if (type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.flags.carray and points.size
+            and not 4 <= 2 * points.shape[0] < points.shape[1]):
         return points
     try:
         given = np.asanyarray(points)
         kind, masked = given.dtype.kind, has_masked(given)
         refused = kind == "O" and any(isinstance(value, _NO_REAL_NUMBERS) for value in given.flat)
         array = np.ascontiguousarray(given, dtype=np.float64) if kind in "uifO" and not refused else given
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, RuntimeError):  # the last of a tensor with a gradient
         raise ArgumentError(f"points must be an array of real numbers, not {quoted(points)}") from None
     if isinstance(points, (str, bytes)):
         raise ArgumentError(f"points must be an array, not the text {quoted(points)}; read(path) reads a file, generate(pattern, n) makes points")
@@ -342,19 +344,27 @@ def as_points(points: npt.ArrayLike) -> PointArray:
         raise ArgumentError(f"points must be real numbers, not {quoted(points)}")
     if masked:
         raise ArgumentError("points must not have masked coordinates")
+    for column in getattr(points, "columns", ()):  # of a frame
+        if str(column).lower() in _NO_COORDINATES:
+            warn(f"column {column!r} is taken as a coordinate; points[['x', 'y']] chooses columns")
     array = array if array.flags.aligned else array.copy()
     if given.ndim != 2 or 0 in array.shape:
         column = ("; x[:, None] has one dimension, x.reshape(-1, 2) two, and np.column_stack((x, y)) joins columns"
                   if given.ndim == 1 and len(given) > 1 else "")
         raise ArgumentError(f"points must be an array of shape (n, dim), with n and dim of at least 1, not {given.shape}{column}")
+    if 2 <= array.shape[0] < array.shape[1] / 2 and array.shape[1] > 3:
+        warn(f"{array.shape[0]} points in {array.shape[1]} dimensions; are rows and columns swapped?")
     return array
 
 
-def doubt(points: PointArray) -> None:
-    """Warns of what looks like no coordinates in points that could be measured: the first remark of the library's."""
+def doubt(points: PointArray, *told: str) -> None:
+    """Warns of what looks like no coordinates in points that could be measured: the first remark of the library's, unless
+    as_points or a result has told it."""
     c_points, room = view(points), ctypes.create_string_buffer(4096)
-    if core().koksma_points_oddities(byref(c_points), room, len(room)):
-        warn(room.value.decode().splitlines()[0])
+    core().koksma_points_oddities(byref(c_points), room, len(room))
+    line = room.value.decode().partition("\n")[0]
+    if line and not any(words in line for words in ("swapped", *told)):
+        warn(line)
 
 
 def numbers(name: str, values: npt.ArrayLike) -> PointArray:
@@ -366,7 +376,7 @@ def numbers(name: str, values: npt.ArrayLike) -> PointArray:
         given = np.asanyarray(values)
         kind, masked = given.dtype.kind, has_masked(given)
         array = np.asarray(given, dtype=np.float64, order="C") if kind in "buifO" else None
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, RuntimeError):
         raise TypeError(f"{name} must be numbers, not {quoted(values)}") from None
     if array is None:
         raise TypeError(f"{name} must be real numbers, not {given.dtype}")
@@ -781,7 +791,7 @@ def verify(points: npt.ArrayLike, *, threads: SupportsIndex = 0) -> List[Finding
     array = as_points(points)  # a copy, perhaps, which the name keeps
     c_points = view(array)
     findings = _findings(core().koksma_verify, byref(c_points), threads=threads, run_at=1)
-    doubt(array)
+    doubt(array, "equal earlier")
     return findings
 
 

@@ -16,6 +16,30 @@ REFERENCE = koksma.render("cornell", "sobol:scramble=owen", 256, **SMALL)
 RANKING = dict(patterns=["jittered", "random"], spp=4, max_trials=8, one_size=True)
 
 
+class Frame:
+    """What of a pandas.DataFrame is asked for."""
+
+    def __init__(self, array, columns):
+        self._array, self.columns = array, columns
+
+    def __array__(self, dtype=None, copy=None):
+        return np.asarray(self._array, dtype)
+
+
+class Tensor(Frame):
+    """What a torch.Tensor with a gradient does."""
+    ndim = 2
+
+    def __init__(self):
+        pass
+
+    def __array__(self, dtype=None, copy=None):
+        raise RuntimeError("Can't call numpy() on Tensor that requires grad. Use tensor.detach().numpy() instead.")
+
+    def __repr__(self):
+        return "tensor([0.1], requires_grad=True)"
+
+
 class Doubts(unittest.TestCase):
     def told(self, call):
         with warnings.catch_warnings(record=True) as told:
@@ -90,8 +114,15 @@ class Doubts(unittest.TestCase):
         self.check([(said, lambda f=f, p=np.hstack(p): f(p)) for f in (koksma.measure, koksma.verify, koksma.identify) for said, p in (
                         ("column 3 is 0.015625 in all rows", (points, weights)), ("column 3 sums to 1", (points[:48], points[:48, :1] / points[:48, 0].sum())))]
                    + [("the first column counts the rows", lambda: koksma.identify(np.hstack((index, points)))),
-                      ("rows and columns swapped", lambda: koksma.measure(points.T, "l2-star"))],
-                   [lambda p=p: koksma.measure(p) for p in (points, [[0.5, 0.5]], koksma.generate("hammersley", 64))])
+                      *(("rows and columns swapped", lambda f=f: f(points.T)) for f in (koksma.verify, koksma.plot, koksma.identify)),
+                      ("column 'seed' is taken as a coordinate", lambda: koksma.measure(Frame(points, ["x", "seed"]), "l2-star"))],
+                   [lambda p=p: koksma.measure(p) for p in (points, Frame(points, ["u", "v"]), koksma.generate("regular", 64), koksma.generate("korobov", 55), [[0.5, 0.5]], koksma.generate("hammersley", 64))]
+                   + [lambda: koksma.verify(points.repeat(2, 0))])
+
+    def test_tensors(self):
+        for call in (lambda: koksma.measure(Tensor()), lambda: koksma.integrate(lambda x: Tensor(), "sobol", 4), lambda: koksma.compare(Tensor(), REFERENCE)):
+            with self.assertRaisesRegex((TypeError, koksma.ArgumentError), r"; x\.detach\(\)\.cpu\(\)\.numpy\(\) is an array$"):
+                call()
 
 
 if __name__ == "__main__":
