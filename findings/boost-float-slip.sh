@@ -46,5 +46,5 @@ int main()
     return one && other ? 0 : 1;
 }
 END
-g++ -O2 -I usr/include -o slip slip.cpp
+g++ -O2 -isystem usr/include -o slip slip.cpp
 ./slip
