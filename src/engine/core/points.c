@@ -19,14 +19,26 @@ koksma_status koksma__points_fit(size_t n, int dim)
                                     n, most, dim);
 }
 
+static bool counts_rows(const koksma_points *points, size_t column)
+{
+    const double *x = points->xs + column;
+    size_t i = 0;
+    while (i < points->n && x[i * (size_t)points->dim] == x[0] + (double)i) {
+        i++;
+    }
+    return points->dim > 1 && i > 2 && i == points->n;
+}
+
 koksma_status koksma__points_check(const koksma_points *points)
 {
     KOKSMA__FAIL_IF(!points->xs || points->n == 0, KOKSMA_ARGUMENT, "no points: a set has at least 1 point");
     const koksma_status status = koksma__points_fit(points->n, points->dim);
     const size_t n = status ? 0 : points->n * (size_t)points->dim;
     for (size_t i = 0; i < n; i++) {
+        const size_t dim = (size_t)points->dim, column = i % dim;
         KOKSMA__FAIL_IF(!(points->xs[i] >= 0 && points->xs[i] <= 1), KOKSMA_ARGUMENT,
-                        "point %zu: coordinate %.17g is outside [0,1]", i / (size_t)points->dim, points->xs[i]);
+                        "point %zu: coordinate %.17g is outside [0,1]%s", i / dim, points->xs[i],
+                        counts_rows(points, column) ? "; its column counts the rows: leave it out" : "");
     }
     return status;
 }

@@ -80,6 +80,11 @@ static koksma_status identify(koksma__sample *s, const koksma_points *points)
     const int precisions = koksma__precisions(s, points, tolerances);
     KOKSMA__TRY(identify_within(s, tolerances, precisions));
     KOKSMA__TRY(koksma__identify_seeded(s));
+    if (!s->named && s->few_digits > 0 &&
+        points->n * (size_t)points->dim >= 16) { /* 16 are equal with chance 2^-90 */
+        s->tolerance = s->few_digits;
+        KOKSMA__TRY(koksma__identify_plain(s));
+    }
     for (int i = 0; i < precisions && !s->named; i++) {
         s->tolerance = tolerances[i];
         KOKSMA__TRY(koksma__identify_structure(s));
@@ -91,7 +96,9 @@ static koksma_status identify(koksma__sample *s, const koksma_points *points)
                  s->floats ? "all coordinates are floats" : "all coordinates have few digits");
     }
     if (!s->named) {
-        koksma_identity *said = koksma__identity(s, "unknown", "no sequence, lattice or pattern that is known here");
+        koksma_identity *said =
+            koksma__identity(s, "unknown", "no sequence, lattice or pattern that is known here%s",
+                             s->few_digits > 0 ? ", as far as so few digits tell: more decimals tell more" : "");
         KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
     }
     return KOKSMA_OK;

@@ -119,10 +119,11 @@ int koksma__precisions(koksma__sample *s, const koksma_points *points, double to
     if (bits <= 32 && ldexp(1, -bits) <= most) {
         tolerances[count++] = ldexp(1, -bits) / s->width;
     }
-    for (int d = 4; d <= 12 && bits > 32; d++) {
+    for (int d = 2; d <= 12 && bits > 32; d++) {
         if (all_multiples(points, koksma__pow(10, d), 1e-3 * koksma__pow(10, d - 12))) {
             tolerances[count] = koksma__pow(10, -d) / s->width;
             count += koksma__pow(10, -d) <= most;
+            s->few_digits = koksma__pow(10, -d) > most ? koksma__pow(10, -d) / s->width : 0;
             return count;
         }
     }
