@@ -68,7 +68,7 @@ _PARTS = {  # what is no argument here, but a part of a spec
     "scramble": 'is a part of the pattern: "NAME:scramble=owen"', "shift": 'is a part of the pattern: "korobov,shift=1"',
     "trials": "is of koksma.trials(pattern, n, measure)", "optimise.method": "is chosen by the measure",
     "radius": 'is a part of the pattern: "poisson-disk:d=0.1"', "r": 'is a part of the pattern: "poisson-disk:d=0.1"',
-    "rank.target_error": "is of koksma.rank_to_error", "rank_to_error.spp": "is what it finds",
+    "plot.n": "is of generate: plot(generate(pattern, n))", "rank.target_error": "is of koksma.rank_to_error", "rank_to_error.spp": "is what it finds",
     "sigma": 'is a part of the filter: "gaussian:sigma=1"',
     "optimization": "is koksma.optimise(measure, n, d)", "dtype": "is that of points.astype(dtype)",
     **dict.fromkeys(("l_bounds", "u_bounds", "bounds", "low", "high"), "is of scipy.stats.qmc.scale(points, l_bounds, u_bounds)"),
@@ -98,6 +98,8 @@ _REMEDIES = (  # what functions ("": any) say, with FIRST for the name of its fi
     ("", r"points must be an array of real numbers, not Engine", "engine.random(n) draws them"),
     ("", r"numbers, not tensor\(", "x.detach().cpu().numpy() is an array"),
     ("", r"points must not have masked", "points[~points.mask.any(axis=1)] leaves out what has a masked one"),
+    ("", r"its column counts the rows", "its column counts the rows: points[:, 1:] has the others"),
+    ("integrate", r"^bounds must have low < high", "one (low, high) for each coordinate: list(zip(lower, upper))"),
     ("", r"coordinate -?(nan|inf) is outside", "a value is missing, or was divided by 0"),
     ("", r"coordinate -.* is outside \[0,1\]", "points of [-0.5,0.5] are x + 0.5 here, those of [-1,1] (x + 1) / 2"),
     ("", r"is outside \[0,1\]", "points lie in the unit cube: divide by the largest coordinate there can be"),
@@ -184,7 +186,7 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
         return f"; the order is {function.__name__}({', '.join(order)}), the others have names"
     first = re.escape(getattr(values[0], "__qualname__", " ")) if values else " "
     for of, says, remedy in _REMEDIES:
-        if (not of or function.__name__ in of.split()) and re.search(says.replace("FIRST", first), message) and (of or ";" not in message):
+        if (not of or function.__name__ in of.split()) and re.search(says.replace("FIRST", first), message) and (of or ";" not in message or "counts the rows" in says):
             return f"; {remedy}"
     if no_text == ["pattern"] and message.startswith("pattern must be a str"):
         return ("; uses are in one text, 'pixel=random;lens=sobol'" if any(isinstance(value, dict) for value in values)

@@ -16,8 +16,8 @@ from . import _structs as s
 from ._frame import Framed
 from ._library import (ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text,
                        warn, warn_of_one_set, whole)
-from ._points import Member, PointArray, as_points, canonical, generate, numbers, table, view
-from ._tolerance import Integral, integrate_to
+from ._points import Member, PointArray, as_points, canonical, generate, table, view
+from ._tolerance import Integral, integrate_to, values_at
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
 
@@ -112,6 +112,11 @@ class Integration(Framed):
                       for n, rmse, low, high, about, gain, z in errors],
                      f"{self.integrand} by {self.pattern}, {self.trials} set{'s' * (self.trials != 1)}{slope}")
 
+    def __float__(self) -> float:
+        if len(self.sizes) != 1:
+            raise ArgumentError(f"it has {len(self.sizes)} estimates, of n = {self.sizes[0]}..{self.sizes[-1]}: .mean[-1] is the last")
+        return float(self.mean[0])
+
     def _columns(self) -> Dict[str, Any]:
         names = ("rmse", "low", "high", "approximate", "mean", "sd", "gain", "z")
         return {"n": self.sizes, **{name: getattr(self, name) for name in names}}
@@ -204,15 +209,10 @@ def integrand(name: str, dim: SupportsIndex = 2) -> Integrand:
         return _facts(handle)
 
 
-def _values(function: Callable[[PointArray], npt.ArrayLike], points: PointArray) -> PointArray:
-    """The function's values at the points, of whatever shape."""
-    return numbers(f"the values of the function {_name_of(function)}", function(points))
-
-
 def _mean(function: Callable[[PointArray], npt.ArrayLike], points: PointArray) -> float:
     """Of the function's values at the points."""
     n, dim = points.shape
-    values = _values(function, points)
+    values = values_at(function, _name_of(function), points)
     if values.shape != (n,):
         raise ArgumentError(f"{_name_of(function)}: for points of shape ({n}, {dim}) it returned the shape {values.shape}, "
                             f"not ({n},)")

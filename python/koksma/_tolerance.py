@@ -158,6 +158,15 @@ def _pairs(name: str, values: Any, count: Optional[int]) -> npt.NDArray[np.float
     return found
 
 
+def values_at(function: Callable[[PointArray], npt.ArrayLike], name: str, points: PointArray) -> PointArray:
+    """The function's values at the points, of whatever shape."""
+    try:
+        found = function(points)
+    except IndexError as error:
+        raise ArgumentError(f"{name}: {error}; its points have {points.shape[1]} dimensions, as dim says") from error
+    return numbers(f"the values of the function {name}", found)
+
+
 def _mapped(function: Callable[[PointArray], npt.ArrayLike], dim: int, bounds: Any,
             warp: Optional[str]) -> Tuple[Callable[[PointArray], npt.NDArray[np.float64]], float]:
     """The function on the unit cube, times the volume of the box of `bounds`, and this volume."""
@@ -172,7 +181,7 @@ def _mapped(function: Callable[[PointArray], npt.ArrayLike], dim: int, bounds: A
             points = box[:, 0] + points * (box[:, 1] - box[:, 0])
         if warp is not None:
             points = np.hstack([warp_points(points[:, :2], warp), points[:, 2:]])
-        values = numbers(f"the values of the function {name}", function(points))
+        values = values_at(function, name, points)
         if values.shape != (len(points),):
             raise ArgumentError(f"{name}: for points of shape {points.shape} it returned the shape {values.shape}, not ({len(points)},)")
         return values * volume
@@ -248,6 +257,8 @@ def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional
     path = tuple(Step(step.n, step.points, e.value, e.low, e.high, e.error, e.confidence, e.estimator.decode(), e.interval.decode())
                  for step in result.steps[:result.n_steps] for e in (step.estimate,))
     last = path[-1]
+    if tolerance and not result.reached:
+        warn(f"the tolerance {tolerance:g} is not reached: the error is {last.error:.3g} after {last.points} points", RuntimeWarning)
     if callable(function) and last.points > 1 and result.least == result.largest:
         warn(f"all {last.points} values are {result.least:g}, of points in {dim} dimensions", RuntimeWarning)
     elif last.points >= 4096 and result.top_share > 0.02:

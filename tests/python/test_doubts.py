@@ -90,10 +90,25 @@ class Doubts(unittest.TestCase):
 
         patterns = ("random", "sobol:scramble=owen", "sobol")
         self.check([*((f"integral {wrong}", with_integral(wrong, p)) for p in patterns for wrong in (0.3, 4)),
-                    ("confidence 0.05", lambda: koksma.integrate(product, 2, tolerance=0.01, confidence=0.05))],
+                    ("confidence 0.05", lambda: koksma.integrate(product, 2, tolerance=0.01, confidence=0.05)),
+                    ("tolerance 1e-12 is not reached", lambda: koksma.integrate(product, 2, tolerance=1e-12, max_points=4096)),
+                    ("all 73728 values are 0", lambda: koksma.integrate(lambda x: 0 * x[:, 0], 2, tolerance=0.01)),
+                    ("the integral may be infinite", lambda: koksma.integrate(lambda x: x[:, 0] ** -2, 1, tolerance=0, n=8192, replicates=8))],
                    [*(with_integral(0.25, p) for p in patterns), with_integral(0.3, "sobol", (100, 101, 102)), with_integral(math.nan, "random"),
                     *(with_integral(1e-4, p, function=lambda x: 1.0 * (x.max(axis=1) < 0.01)) for p in patterns),
                     lambda: koksma.integrate(product, 2, tolerance=0.01, confidence=0.5)])
+
+    def test_mistakes_in_integrals(self):
+        def in_three(x):
+            return x[:, 0] * x[:, 2]
+
+        for call, said in ((lambda: koksma.integrate(in_three, tolerance=0.01), "its points have 2 dimensions"),
+                           (lambda: koksma.integrate(in_three, "sobol", 4), "its points have 2 dimensions"),
+                           (lambda: koksma.integrate(in_three, 3, tolerance=0.01, bounds=[[0, 0], [1, 1], [1, 2]]), r"list\(zip\(lower, upper\)\)"),
+                           (lambda: float(koksma.integrate(in_three, "sobol", [4, 8], 3)), r"\.mean\[-1\] is the last")):
+            with self.assertRaisesRegex(koksma.ArgumentError, said):
+                call()
+        self.assertEqual(float(koksma.integrate(in_three, "sobol", 4, dim=3)), koksma.integrate(in_three, "sobol", 4, dim=3).mean[0])
 
     def test_masks(self):
         noise, picture = koksma.mask(size=(32, 32), swaps=10), koksma.render("cornell", spp=4, size=(32, 32))
@@ -118,6 +133,10 @@ class Doubts(unittest.TestCase):
                       ("column 'seed' is taken as a coordinate", lambda: koksma.measure(Frame(points, ["x", "seed"]), "l2-star"))],
                    [lambda p=p: koksma.measure(p) for p in (points, Frame(points, ["u", "v"]), koksma.generate("regular", 64), koksma.generate("korobov", 55), [[0.5, 0.5]], koksma.generate("hammersley", 64))]
                    + [lambda: koksma.verify(points.repeat(2, 0))])
+
+    def test_index(self):
+        with self.assertRaisesRegex(koksma.ArgumentError, r"points\[:, 1:\] has the others"):
+            koksma.measure(np.column_stack((np.arange(8), koksma.generate("sobol", 8))))
 
     def test_tensors(self):
         for call in (lambda: koksma.measure(Tensor()), lambda: koksma.integrate(lambda x: Tensor(), "sobol", 4), lambda: koksma.compare(Tensor(), REFERENCE)):
