@@ -184,7 +184,6 @@ struct koksma_scene {
     struct koksma__kept_image **images; /* owns all images (render/scene_images.h) */
     size_t n_images;
     uint64_t image_bytes, image_file_bytes; /* what images take or took, and the files that they are from */
-    bool glows;                             /* some placement that has a material is also a light */
     /* the numbers of lights and shapes that model.c added to the scene of a model file, at the ends of `lights` and
        `shapes`; each of these shapes uses one material, and these materials are at the end of `materials` */
     struct {

@@ -177,7 +177,6 @@ koksma_status koksma__scene_add_glow(koksma_scene *scene, koksma__placement *p, 
         light->visible = true;
         memcpy(light->radiance, radiance, sizeof light->radiance);
         p->light = (int)(light - scene->lights);
-        scene->glows |= p->material >= 0;
     }
     return status;
 }

@@ -87,6 +87,12 @@ static koksma_status make_materials(koksma__frame *f)
         f->materials[i] = make_material(from);
         f->shading_materials[i] = koksma__shading_material_of(from);
     }
+    for (size_t i = 0; i < f->scene->n_placements; i++) {
+        const koksma__placement *p = &f->scene->placements[i];
+        if (p->light >= 0 && p->material >= 0) {
+            f->shading_materials[p->material].glows = true;
+        }
+    }
     return KOKSMA_OK;
 }
 
@@ -134,7 +140,8 @@ static koksma_status make_lane_materials(koksma__frame *f)
         t->form[i] = (int32_t)m->bsdf->form;
         t->traits[i] = 1 << m->bsdf->form | (int32_t)m->bsdf->lobes << KOKSMA__LOBES_AT |
                        (m->bsdf->takes_choice ? KOKSMA__TAKES_CHOICE : 0) |
-                       (koksma__is_textured(m) ? KOKSMA__HAS_IMAGE : 0) | (b->checker ? KOKSMA__IS_CHECKER : 0);
+                       (koksma__is_textured(m) ? KOKSMA__HAS_IMAGE : 0) | (m->glows ? KOKSMA__GLOWS : 0) |
+                       (b->checker ? KOKSMA__IS_CHECKER : 0);
         for (size_t k = 0; k < n_columns; k++) {
             (*columns[k])[i] = numbers[k];
         }

@@ -40,6 +40,7 @@ typedef struct koksma__shading_material {
     float derived;                    /* a number that prepare() computes from the values */
     const koksma_image *image;        /* the image of the albedo, or NULL */
     const koksma__material *from;     /* the description of this material, which has the images */
+    bool glows;                       /* some mesh of this material is a light */
 } koksma__shading_material;
 
 /* Whether an image or vertex colours make the material vary over the surface; checkers are treated separately. */

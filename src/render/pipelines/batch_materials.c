@@ -59,7 +59,6 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
     const koksma__hits *restrict h = s->hits;
     KOKSMA__LANES(int32_t, at);
     KOKSMA__LANES(int32_t, odd);
-    KOKSMA__LANES(int32_t, all);
     int32_t traits = 0, lights = 0;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
@@ -73,9 +72,9 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
         odd[i] = 0;
     }
     look_up(t->form, t->n, at, n, s->form);
-    look_up(t->traits, t->n, at, n, all);
+    look_up(t->traits, t->n, at, n, s->trait);
     for (int i = 0; i < STEP(n); i++) {
-        traits |= all[i];
+        traits |= s->trait[i];
     }
     s->traits = (unsigned)traits;
     s->met_lights = lights;

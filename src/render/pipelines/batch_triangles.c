@@ -229,25 +229,44 @@ int BATCH_NAME(meet_faces)(const koksma__batch_faces *faces, const float *x, con
     return count;
 }
 
+static void shade_all(const koksma__batch_faces *faces, const lines *r, int n, float *light)
+{
+    const float *const o[3] = {r->x, r->y, r->z}, *const d[3] = {r->dx, r->dy, r->dz};
+    koksma__slabs s;
+    size_t at = 0;
+    if (faces->n_bundles) {
+        koksma__slabs_of(o, d, faces->size, n, &s);
+    }
+    for (int b = 0; b < faces->n_bundles; at = faces->bundles[b++].end) {
+        shade_range(faces, at, faces->bundles[b].first, r, n, light);
+        shade_bundle(faces, &faces->bundles[b], &s, r, n, light);
+    }
+    shade_range(faces, at, (size_t)faces->n, r, n, light);
+}
+
+/* As in `occlude`, rays without light are left out where those are many. */
 void BATCH_NAME(shade_faces)(const koksma__batch_faces *faces, const float *x, const float *y, const float *z,
                              const koksma__hits *h, int n, koksma__shadows *shadows)
 {
     _Alignas(64) float d[3][KOKSMA__BLOCK];
-    const float *const o[3] = {x, y, z}, *const along[3] = {d[0], d[1], d[2]};
+    KOKSMA__LANES(float, lit);
+    KOKSMA__LANES(int32_t, flags);
+    koksma__picks p;
+    koksma__rays some;
     const lines r = {x, y, z, d[0], d[1], d[2]};
-    koksma__slabs s;
-    size_t at = 0;
     for (int i = 0; i < STEP(n); i++) { /* a ray ends where it would if it began at the hit */
         d[0][i] = shadows->dx[i] + (h->px[i] - x[i]);
         d[1][i] = shadows->dy[i] + (h->py[i] - y[i]);
         d[2][i] = shadows->dz[i] + (h->pz[i] - z[i]);
+        flags[i] = shadows->light[i] != 0;
     }
-    if (faces->n_bundles) {
-        koksma__slabs_of(o, along, faces->size, n, &s);
+    koksma__batch_pick(flags, n, &p);
+    if (p.n > STEP(n) / 2) {
+        shade_all(faces, &r, n, shadows->light);
+    } else if (p.n) {
+        const lines picked = pull_lines(&r, &p, &some);
+        koksma__batch_pull_whole(shadows->light, &p, lit);
+        shade_all(faces, &picked, koksma__batch_pulled(&p), lit);
+        koksma__batch_push(lit, &p, shadows->light);
     }
-    for (int b = 0; b < faces->n_bundles; at = faces->bundles[b++].end) {
-        shade_range(faces, at, faces->bundles[b].first, &r, n, shadows->light);
-        shade_bundle(faces, &faces->bundles[b], &s, &r, n, shadows->light);
-    }
-    shade_range(faces, at, (size_t)faces->n, &r, n, shadows->light);
 }

@@ -17,7 +17,8 @@ enum {
     KOKSMA__LOBES_AT = 8,
     KOKSMA__TAKES_CHOICE = 1 << 16,
     KOKSMA__HAS_IMAGE = 1 << 17,
-    KOKSMA__IS_CHECKER = 1 << 18
+    KOKSMA__IS_CHECKER = 1 << 18,
+    KOKSMA__GLOWS = 1 << 19 /* some mesh of the material is a light */
 };
 
 /* The properties of materials that kernels look up, one array per property, indexed by the material + 1; entry 0
@@ -39,6 +40,7 @@ typedef struct koksma__surfaces {
     unsigned traits;                           /* the bitwise "or" of the traits of all materials that were hit */
     int32_t met_lights; /* not 0 if some lane hit a surface without a material, which is a light's */
     KOKSMA__LANES(int32_t, form);
+    KOKSMA__LANES(int32_t, trait); /* the traits of each lane's material */
     _Alignas(64) koksma__lanes out[3];
     _Alignas(64) koksma__lanes albedo[3];
     _Alignas(64) koksma__lanes parameters[4]; /* those of materials of the forms LOBES, FACETS and COATED */

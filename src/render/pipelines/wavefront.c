@@ -533,10 +533,10 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     if (trace->bounce || !frame->scene->hides_lights) {
         add_misses(frame, v);
     }
-    for (int i = 0; (v->surfaces.met_lights || frame->scene->glows) && i < n; i++) {
+    for (int i = 0; (v->surfaces.met_lights || v->surfaces.traits & KOKSMA__GLOWS) && i < n; i++) {
         if ((v->surfaces.form[i] < 0) & (hits->primitive[i] >= 0)) {
             add_emission(frame, v, i);
-        } else if (frame->scene->glows && v->surfaces.form[i] >= 0) {
+        } else if (v->surfaces.trait[i] & KOKSMA__GLOWS) {
             add_glow(frame, v, i);
         }
     }
