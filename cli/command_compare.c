@@ -5,6 +5,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <koksma/image.h>
 
@@ -27,7 +28,8 @@ typedef struct comparison {
     errors all;           /* of all images so far */
     const char *compared; /* the path of the image that is being compared, or NULL */
     bool json;
-    int n; /* number of images on the command line */
+    int n;           /* number of images on the command line */
+    float low, high; /* the range of the values of the images and the reference, and 0 */
     cli_rows *rows;
 } comparison;
 
@@ -171,6 +173,16 @@ static koksma_status put_one(const comparison *c, const koksma_image *image, con
     return status;
 }
 
+/* Widens the range of values, from which no error is larger, to that of an image. */
+static void widen(comparison *c, const koksma_image *image)
+{
+    const size_t n = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    for (size_t i = 0; i < n; i++) {
+        c->low = fminf(c->low, image->pixels[i]);
+        c->high = fmaxf(c->high, image->pixels[i]);
+    }
+}
+
 /* Adds the errors of the image in the file `path`. difference: the file for an image of the errors, or NULL. */
 static koksma_status add_image(comparison *c, const char *path, const char *difference, bool check_order)
 {
@@ -183,10 +195,12 @@ static koksma_status add_image(comparison *c, const char *path, const char *diff
         c->compared = NULL;
         status = difference ? write_difference(difference, &image, &c->reference) : KOKSMA_OK;
     }
-    const char *doubt = status ? "" : koksma_image_doubt(&image, &c->reference, check_order);
+    const bool alike = cli_has_eight_bits(path) == cli_has_eight_bits(c->reference_path);
+    const char *doubt = status ? "" : koksma_image_doubt(&image, &c->reference, check_order && alike);
     if (doubt[0]) {
         cli_say("compare", "%s: warning: %s", path, doubt);
     }
+    widen(c, &image);
     koksma_image_fini(&image);
     return status;
 }
@@ -197,6 +211,7 @@ static int compare_all(const cli_arguments *arguments, comparison *c, const char
     koksma_status status = read_numbers(c->reference_path, &c->reference);
     status = status ? status : koksma_coherence_init(&c->all.coherence, c->reference.width, c->reference.height);
     c->rows = cli_rows_open(c->json);
+    widen(c, &c->reference);
     for (int i = 0; !status && i < c->n; i++) {
         status = add_image(c, arguments->operands[i], output, check_order && !i);
     }
@@ -222,6 +237,13 @@ static int run(const cli_arguments *arguments)
                                                     : "it takes one image or more, and then the reference");
     }
     c.reference_path = reference ? reference : arguments->operands[c.n];
+    if (!reference && !output && c.n > 1 && cli_is_image(c.reference_path) && access(c.reference_path, F_OK)) {
+        return cli_usage_error(
+            arguments,
+            "%s: there is no such image; the last one is the reference, and '-o %s' writes an image of the "
+            "errors",
+            c.reference_path, c.reference_path);
+    }
     int n_stdin = !strcmp(c.reference_path, "-");
     for (int i = 0; i < c.n; i++) {
         n_stdin += !strcmp(arguments->operands[i], "-");
@@ -244,6 +266,10 @@ static int run(const cli_arguments *arguments)
             cli_say("compare", "%s: warning: 8 bits are rounded and clipped, and that is counted as error",
                     cli_has_eight_bits(image) ? image : c.reference_path);
         }
+    }
+    const double largest = (double)c.high - (double)c.low;
+    if (!code && isfinite(most) && most > largest) {
+        cli_say("compare", "warning: --max-mean %g: no error of these images can be above %.3g", most, largest);
     }
     return code ? code : c.all.error.mean <= most * (double)c.all.images ? CLI_YES : CLI_NO;
 }

@@ -4,7 +4,6 @@
 #include "studying.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include <koksma/image.h>
 
@@ -31,12 +30,6 @@ koksma_status cli_render_outside(void *context, const koksma_rank_picture *pictu
                 o->patterns, cli_duration(trials_s, more));
     }
     return status;
-}
-
-bool cli_is_image(const char *text)
-{
-    const char *dot = text ? strrchr(text, '.') : NULL;
-    return dot && koksma_image_check_path(text) != KOKSMA_ARGUMENT;
 }
 
 koksma_status cli_blur(void *context, const koksma_image *image, const koksma_run *run, koksma_image *out)

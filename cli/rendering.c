@@ -383,6 +383,12 @@ void cli_warn_of_few_pixels(const char *command, const char *subject, const char
     }
 }
 
+bool cli_is_image(const char *text)
+{
+    const char *dot = text ? strrchr(text, '.') : NULL;
+    return dot && koksma_image_check_path(text) != KOKSMA_ARGUMENT;
+}
+
 bool cli_has_eight_bits(const char *path)
 {
     const char *end = strrchr(path, '.');

@@ -122,6 +122,9 @@ void cli_warn_of_few_pixels(const char *command, const char *subject, const char
 
 /* ---- Numbers in image files of 8 bits, which hold only colours from 0 to 1 ---------------------------- */
 
+/* Whether a text names an image file, by its ending; it may be NULL. */
+bool cli_is_image(const char *text);
+
 /* Returns whether files of this name hold 8 bits per channel (PNG, JPEG): numbers above 1 are white in them. */
 bool cli_has_eight_bits(const char *path);
 

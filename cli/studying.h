@@ -59,7 +59,4 @@ const char *cli_process_text(const koksma_rank_options *options, char text[CLI_P
 /* Blurs a trial's image for a koksma_rank_process whose context is a standard deviation (double). */
 koksma_status cli_blur(void *context, const koksma_image *image, const koksma_run *run, koksma_image *out);
 
-/* Whether the text of --reference names an image file, by its ending. */
-bool cli_is_image(const char *text);
-
 #endif

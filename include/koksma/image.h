@@ -116,8 +116,9 @@ KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const k
                                               koksma_image_error *out);
 
 /* Returns what looks like a mistake in an image beside the reference that it is compared with, as one line without their
-   names: equal images, a picture that has the reference's light times a factor, one of another scene, a grey one beside
-   colours. "": nothing, or images of different sizes. The string is valid until the thread calls this again.
+   names: equal images, one with black parts where the other has none, a picture that has the reference's light times a
+   factor, one of another scene, a grey one beside colours. "": nothing, or images of different sizes. The string is valid
+   until the thread calls this again.
      order  also say that the image has less noise than the reference, as if they were swapped */
 KOKSMA_API const char *koksma_image_doubt(const koksma_image *image, const koksma_image *reference, bool order);
 

@@ -143,7 +143,7 @@ TEST_CASE(doubts_by_construction)
         {0.2, 0.5, false, "0.5"},
         {0.2, 1, true, "another scene"},
         {0, 1, false, "same image"},
-        {0, 0, false, "another scene"},
+        {0, 0, false, "1024 of its pixels are black"},
     };
     koksma_image reference = slope(0, 1, false, 0);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -157,6 +157,13 @@ TEST_CASE(doubts_by_construction)
     koksma_image noisy = slope(1, 1, false, 1), better = slope(0.2, 1, false, 2), colours, other;
     assert_non_null(strstr(koksma_image_doubt(&better, &noisy, true), "less noise"));
     assert_string_equal(koksma_image_doubt(&better, &noisy, false), "");
+    memset(noisy.pixels + 512, 0, 256 * sizeof *noisy.pixels);
+    assert_non_null(strstr(koksma_image_doubt(&noisy, &reference, true), "256 of its pixels are black"));
+    assert_non_null(strstr(koksma_image_doubt(&reference, &noisy, true), "256 pixels of the reference are black"));
+    for (size_t i = 512; i < 768; i++) { /* noise, as of few samples that meet no light */
+        noisy.pixels[i] = i % 3 ? 0 : 4;
+    }
+    assert_string_equal(koksma_image_doubt(&noisy, &reference, true), "");
     assert_ok(koksma_image_init(&colours, 32, 32, 3));
     for (size_t i = 0; i < 3072; i++) {
         colours.pixels[i] = noisy.pixels[i / 3];

@@ -27,12 +27,17 @@ static bool lacks_colour(const koksma_image *image, const koksma_image *other, s
     return image->channels == 3 && other->channels == 1 && (rgb[0] != rgb[1] || rgb[1] != rgb[2]);
 }
 
-static sums sums_of(const koksma_image *image, const koksma_image *reference)
+/* lit: NULL, or pixels that are black in it are left out. */
+static sums sums_of(const koksma_image *image, const koksma_image *reference, const koksma_image *lit)
 {
     const size_t width = (size_t)image->width, n = width * (size_t)image->height;
-    sums s = {.n = (double)n, .equal = true};
+    sums s = {.equal = true};
     for (size_t p = 0; p < n; p++) {
+        if (lit && koksma__luminance(lit, p) == 0) {
+            continue;
+        }
         const double x = koksma__luminance(image, p), y = koksma__luminance(reference, p);
+        s.n++;
         s.x += x;
         s.y += y;
         s.xx += x * x;
@@ -57,6 +62,30 @@ static sums sums_of(const koksma_image *image, const koksma_image *reference)
     return s;
 }
 
+/* The number of pixels that are black in an image, but not in the one beside it, as after an interruption; 0 if they are
+   few, or as in a noisy picture, where black pixels are single ones or little light is: here a pixel and the one at its
+   right differ only at the edge of what is missing. */
+static double cut_off(const koksma_image *image, const koksma_image *beside)
+{
+    const size_t width = (size_t)image->width, n = width * (size_t)image->height;
+    double black = 0, lit = 0, edges = 0, light = 0, missed = 0;
+    bool before = false;
+    for (size_t p = 0; p < n; p++) {
+        const double y = koksma__luminance(beside, p);
+        const bool is_lit = koksma__luminance(image, p) != 0, is_black = y != 0 && !is_lit;
+        edges += p % width && is_black != before;
+        before = is_black;
+        black += is_black;
+        lit += is_lit;
+        light += y;
+        missed += is_black ? y : 0;
+    }
+    return 100 * black >= (double)n && 4 * edges <= black && (!lit || 4 * edges <= lit) &&
+                   4 * missed * (double)n >= light * black
+               ? black
+               : 0;
+}
+
 static double noise(const sums *s, double c)
 {
     const double rough = (s->rough_xx / c - 2 * s->rough_xy) / c + s->rough_yy;
@@ -70,32 +99,47 @@ static double residue(const sums *s, double c)
     return (square - 1e-9 * s->yy) / s->n - noise(s, c);
 }
 
-koksma__likeness koksma__image_likeness(const koksma_image *image, const koksma_image *reference, bool order,
-                                        double *factor)
+/* What noise leaves of the mean square difference is above half of the reference's variance. */
+static bool is_another(const sums *s)
 {
-    const sums s = sums_of(image, reference);
+    const double mean = s->y / s->n;
+    return residue(s, 1) > (s->yy / s->n - mean * mean) / 2;
+}
+
+koksma__likeness koksma__image_likeness(const koksma_image *image, const koksma_image *reference, bool order,
+                                        double *number)
+{
+    const sums s = sums_of(image, reference, NULL);
     const double c = s.x / s.y, mean = s.y / s.n, apart = s.x / s.n - mean, whole = residue(&s, 1);
-    *factor = c;
+    *number = c;
     if (s.equal && !s.grey) {
         return KOKSMA__LIKE_ITSELF;
     }
     if (s.n < LEAST) {
         return s.grey ? KOKSMA__LIKE_GREY : KOKSMA__LIKE_NOISE;
     }
+    const double here = cut_off(image, reference), there = cut_off(reference, image);
+    const sums rest = sums_of(image, reference, here > 0 ? image : reference);
+    if ((here > 0 || there > 0) && !is_another(&rest)) {
+        *number = here > 0 ? here : there;
+        return here > 0 ? KOKSMA__LIKE_CUT : KOKSMA__LIKE_WHOLE;
+    }
     /* A factor is larger than 5 standard errors of the mean, and leaves little of the difference. */
     if (isfinite(c) && (c > 1.5 || (c > 0 && c < 1 / 1.5)) && apart * apart * s.n > 25 * c * c * noise(&s, c) &&
         residue(&s, c) < whole / 10) {
         return KOKSMA__LIKE_SCALED;
     }
-    if (whole > (s.yy / s.n - mean * mean) / 2) {
+    if (is_another(&s)) {
         return KOKSMA__LIKE_ANOTHER;
     }
     if (4 * s.bgr < s.rgb) {
         return KOKSMA__LIKE_REVERSED;
     }
     /* If only the reference has noise, independent of the picture, rough_yy = rough_xx + that of the difference; if only
-       the image has noise, the reverse. Half way between the reference has 3 times the image's variance. */
-    if (order && !s.grey && 2 * (s.rough_yy - s.rough_xx) > s.rough_xx - 2 * s.rough_xy + s.rough_yy) {
+       the image has noise, the reverse. Half way between the reference has 3 times the image's variance. What differs
+       otherwise, as by gamma or swapped channels, is no noise. */
+    if (order && !s.grey && whole < noise(&s, 1) &&
+        2 * (s.rough_yy - s.rough_xx) > s.rough_xx - 2 * s.rough_xy + s.rough_yy) {
         return KOKSMA__LIKE_SMOOTHER;
     }
     return s.grey ? KOKSMA__LIKE_GREY : KOKSMA__LIKE_NOISE;
@@ -103,23 +147,26 @@ koksma__likeness koksma__image_likeness(const koksma_image *image, const koksma_
 
 const char *koksma_image_doubt(const koksma_image *image, const koksma_image *reference, bool order)
 {
-    static _Thread_local char scaled[128];
+    static _Thread_local char counted[160];
     static const char *const said[] = {
         [KOKSMA__LIKE_NOISE] = "",
         [KOKSMA__LIKE_ITSELF] = "its luminance is that of the reference in all pixels; is it the same image?",
-        [KOKSMA__LIKE_SCALED] = NULL,
+        [KOKSMA__LIKE_CUT] =
+            "%.0f of its pixels are black, and not in the reference: was it interrupted, or is it of direct light?",
+        [KOKSMA__LIKE_WHOLE] =
+            "%.0f pixels of the reference are black, and not in it: was that interrupted, or is it of direct light?",
+        [KOKSMA__LIKE_SCALED] = "its mean is %.4g times that of the reference; divide by this, if the units differ",
         [KOKSMA__LIKE_ANOTHER] = "it differs from the reference by more than noise: another scene, view or exposure?",
         [KOKSMA__LIKE_REVERSED] = "its colours are like the reference's in reverse: are they blue, green and red?",
         [KOKSMA__LIKE_SMOOTHER] = "it has less noise than the reference, which comes last; are the two swapped?",
         [KOKSMA__LIKE_GREY] =
             "only one of it and the reference has colours; errors are of luminance but for metrics of colours",
     };
-    double factor;
+    double number;
     if (!image || !reference || koksma__image_check_sizes(image, reference)) {
         return "";
     }
-    const koksma__likeness like = koksma__image_likeness(image, reference, order, &factor);
-    koksma__snprintf(scaled, sizeof scaled,
-                     "its mean is %.4g times that of the reference; divide by this, if the units differ", factor);
-    return said[like] ? said[like] : scaled;
+    const char *text = said[koksma__image_likeness(image, reference, order, &number)];
+    koksma__snprintf(counted, sizeof counted, text, number);
+    return counted;
 }
