@@ -127,7 +127,7 @@ static const char *const advice_names[KOKSMA_RANK_CHECKS][3] = {
 static const char *const first_names[KOKSMA_RANK_CHECKS][3] = {
     {"half_size_first", "half_size_first_best", "half_size_first_coherent"},
     {"twice_size_first", "twice_size_first_best", "twice_size_first_coherent"}};
-static const char *const check_states[] = {"unchecked", "confirmed", "overturned", "unsettled"};
+static const char *const check_states[] = {"unchecked", "confirmed", "overturned", "unsettled", "failed"};
 
 static void put_check(cli_rows *rows, const koksma_rank_options *options, const koksma_rank_check_result *result,
                       const char *const names[3])
@@ -419,6 +419,29 @@ static void parse_variant(const cli_arguments *arguments, request *r)
     }
 }
 
+/* Refuses a command of --with that would make equal pictures of what is compared. many_spp: several numbers of samples are
+   wanted. Returns the exit code. */
+static int check_command(const cli_arguments *arguments, const request *r, bool many_spp)
+{
+    const char *sizes = "is checked at half and twice the size, too; --one-size leaves that out";
+    const bool many = r->p.n > 1,
+               sized = many && r->options.width && !r->options.one_size && !r->options.reference_image;
+    const struct {
+        const char *word, *why;
+        bool needed;
+    } all[] = {{"{pattern}", "compares patterns", many},
+               {"{spp}", "takes several numbers of samples", many_spp},
+               {"{width}", sizes, sized},
+               {"{height}", sizes, sized}};
+    for (size_t i = 0; r->outside.command && i < sizeof all / sizeof *all; i++) {
+        if (all[i].needed && !strstr(r->outside.command, all[i].word)) {
+            return cli_usage_error(arguments, "--with: the command lacks %s, and the ranking %s", all[i].word,
+                                   all[i].why);
+        }
+    }
+    return CLI_YES;
+}
+
 /* Reads --with and --reference. Returns the exit code. */
 static int parse_outside(const cli_arguments *arguments, request *r)
 {
@@ -599,7 +622,9 @@ static int run(const cli_arguments *arguments)
     const char *list = cli_text(arguments, "spp", r.scene_spp);
     if (!code && cli_text(arguments, "target-error", NULL)) {
         r.options.time_limit_s = r.time_limit_s;
-        code = cli_rank_to_error(arguments, &r.options, r.spp);
+        r.options.one_size = true;
+        code = check_command(arguments, &r, true);
+        code = code ? code : cli_rank_to_error(arguments, &r.options, r.spp);
         koksma_image_fini(&r.reference);
         return code;
     }
@@ -613,6 +638,7 @@ static int run(const cli_arguments *arguments)
     if (!code && !cli_sizes(arguments, "spp", list, "", KOKSMA_MAX_SPP, spps, &n_spp)) {
         code = CLI_USAGE;
     }
+    code = code ? code : check_command(arguments, &r, n_spp > 1);
     for (size_t i = 0; i < r.p.n && !code; i++) {
         cli_warn_file(arguments, r.p.at[i], n_spp > 1 ? 0 : spps[0]);
     }
@@ -699,7 +725,8 @@ const cli_command cli_command_rank = {
         "96 trials 16 times as many, so that the first rows need little time. Before, two images of each pattern "
         "give a first look: their difference tells the root mean square error, but no bias. It is printed where "
         "progress is shown, or if the time is up before the first row. All intervals include the reference's own "
-        "error. --reference FILE takes an image in their place, as if it had no error; it must "
+        "error. --reference FILE takes an image in their place, as if it had no error, which no interval includes; "
+        "it must "
         "have the size of the images (default: they have its size), and no other sizes are checked.\n"
         "\n"
         "coherence: the peak of the error's power spectrum divided by its mean, with the allowance for blue noise "

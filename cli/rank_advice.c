@@ -308,10 +308,15 @@ static void advise_sizes(const koksma_rank_options *options, const koksma_rank_r
         case KOKSMA_RANK_UNSETTLED:
             fprintf(stderr, "undecided after %lld trials", check->trials);
             break;
+        case KOKSMA_RANK_FAILED:
+            fprintf(stderr, "not checked: there was no picture of this size; --one-size leaves that out%s",
+                    options->render ? ", {width} and {height} in the command choose the size" : "");
+            break;
         default:
             fprintf(stderr, "not checked%s", ranking->cut_short ? ", the time was up" : "");
         }
-        if (advice->state && ranking->n_coherent && ranking->n_coherent < ranking->n) {
+        if (advice->state && advice->state != KOKSMA_RANK_FAILED && ranking->n_coherent &&
+            ranking->n_coherent < ranking->n) {
             advise_first(options, rows, check);
         }
         fprintf(stderr, "\n");

@@ -269,7 +269,8 @@ KOKSMA_API koksma_status koksma_rank_process_by_command(void *context, const kok
 typedef void (*koksma_rank_look)(void *context, const double *errors);
 
 /* Gets, in the caller's thread, what looks like a mistake in a given reference or in what options->process makes of a
-   picture, as one line: light times a factor, another scene, or a reference with more noise than a picture. */
+   picture, as one line: light times a factor, another scene, or an error that each pattern has in all its pictures, as from
+   noise of the reference. */
 typedef void (*koksma_rank_doubt)(void *context, const char *line);
 
 /* Options of koksma_rank_patterns. */
@@ -361,6 +362,7 @@ typedef enum koksma_rank_check_state {
     KOKSMA_RANK_CONFIRMED,  /* the checked pattern is the best, or equal to the best within 2 % */
     KOKSMA_RANK_OVERTURNED, /* another pattern is decided to have less error than the checked one */
     KOKSMA_RANK_UNSETTLED,  /* there were too few trials to decide */
+    KOKSMA_RANK_FAILED,     /* there are no pictures of this size, as of another renderer that has one size */
 } koksma_rank_check_state;
 
 /* The result of checking whether a pattern is also the best at another image size. */

@@ -26,7 +26,7 @@ _LISTS = {"modern": MODERN, "thesis": THESIS}
 _STATES = ("ranked", "too-slow", "refused")
 _DECISIONS = ("undecided", "best", "equal", "worse")
 _TARGETS = ("checked", "extrapolated", "unknown", "refused")
-_CHECKS = ("unchecked", "confirmed", "overturned", "unsettled")
+_CHECKS = ("unchecked", "confirmed", "overturned", "unsettled", "failed")
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Ranked:
 @dataclass(frozen=True)
 class FirstPlace:
     """Whether the pattern with the least error, in bands or not, leaves the least at another size, too."""
-    state: str  #: unchecked, confirmed, overturned (by `best`) or unsettled
+    state: str  #: unchecked, confirmed, overturned (by `best`), unsettled or failed (no pictures of this size)
     best: Optional[str]
     behind: float  #: overturned: of the first pattern of the ranking against `best`
     behind_interval: Tuple[float, float]
@@ -66,7 +66,7 @@ class FirstPlace:
 class SizeCheck:
     """The advised pattern at half or twice the size, among the first whose error is not coherent (among all, if all are)."""
     size: Tuple[int, int]
-    state: str  #: unchecked, confirmed, overturned (by `best`) or unsettled
+    state: str  #: unchecked, confirmed, overturned (by `best`), unsettled or failed (no pictures of this size)
     best: Optional[str]
     behind: float  #: overturned: of the checked pattern against `best`
     behind_interval: Tuple[float, float]

@@ -102,9 +102,18 @@ def main():
                             ("echo text >{out}", "neither EXR nor PNG nor PFM nor JPG"),
                             ("true {out}", "No such file"),
                             (f"{command.replace('{width}', '9')}", "9 x ")):
-            code, rows, said = rank(bad, "fine,coarse", "--size", "48x32")
+            code, rows, said = rank(bad + " # {pattern} {width} {height}", "fine,coarse", "--size", "48x32")
             lines = [line for line in said.splitlines() if "samples took" not in line]  # said of slow pictures
             check(bad, code not in (0, 1) and reason in said and len(lines) == 1 and not rows, (code, rows, said))
+        fixed = "w={width}; h={height}; " + command.replace("{width} {height}", "48 32")
+        code, rows, said = rank(fixed, "fine,coarse", "--size", "48x32")
+        check("a renderer of one size is ranked at this size", code == 0 and said.count("--one-size") == 2 and
+              [row["half_size"] for row in rows] == ["failed", "failed"], (code, rows, said))
+        for word, *options in (("{pattern}",), ("{spp}", "--spp", "4,8"), ("{spp}", "--target-error", ".1"), ("{width}", "--size", "48x32"),
+                               ("{height}", "--size", "48x32")):
+            done = subprocess.run([PROGRAM, "rank", "s", "-p", "fine,coarse", "--with", command.replace(word, "4"), *options],
+                                  capture_output=True, text=True)
+            check(f"{options} needs {word}", done.returncode == 2 and f"lacks {word}" in done.stderr and done.stderr.count("\n") == 1, done)
         check("nothing is left after failures", not os.listdir(os.environ["TMPDIR"]))
 
         for arguments, reason in ((["--with", command], "--with needs --patterns"),

@@ -64,8 +64,11 @@ class Doubts(unittest.TestCase):
                     ("its mean is 0.00", lambda: compare(IMAGE / 255, REFERENCE)), ("its mean is 3.", lambda: compare(IMAGE * np.pi, REFERENCE)),
                     ("image 1: its mean", lambda: compare([IMAGE, IMAGE * 255], REFERENCE)), ("same image", lambda: compare(IMAGE, IMAGE)),
                     ("are the two swapped?", lambda: compare(REFERENCE, IMAGE)), ("has colours", lambda: compare(IMAGE @ [0.2126, 0.7152, 0.0722], REFERENCE)),
-                    ("in reverse", lambda: compare(IMAGE[..., ::-1], REFERENCE)), ("another scene", lambda: compare(IMAGE[::-1], REFERENCE))],
-                   [lambda: compare(IMAGE, REFERENCE), lambda: compare([IMAGE, IMAGE * 0.9], REFERENCE), lambda: compare(IMAGE * 1.1, REFERENCE)])
+                    ("in reverse", lambda: compare(IMAGE[..., ::-1], REFERENCE)), ("another scene", lambda: compare(IMAGE[::-1], REFERENCE)),
+                    ("was it interrupted", lambda: compare(IMAGE * (np.arange(24) < 12)[:, None, None], REFERENCE))],
+                   [lambda: compare(REFERENCE ** (1 / 2.2), IMAGE),  # its gamma is no noise: the two are not swapped
+                    lambda: compare(2 * IMAGE * (np.random.default_rng(1).random((24, 32, 1)) < 0.5), REFERENCE),
+                    lambda: compare(IMAGE, REFERENCE), lambda: compare([IMAGE, IMAGE * 0.9], REFERENCE), lambda: compare(IMAGE * 1.1, REFERENCE)])
 
     def test_references_and_processes(self):
         ball = koksma.render("ball", "sobol:scramble=owen", 256, **SMALL)
@@ -75,7 +78,8 @@ class Doubts(unittest.TestCase):
             return lambda: koksma.rank("ball", reference=reference, process=process, size=size, **RANKING)
 
         self.check([("the light of the reference", rank(ball * 255)), ("another scene", rank(ball[:, ::-1])),
-                    ("more noise than a picture of 4", rank(koksma.render("ball", "random", 1, **SMALL))),
+                    ("the reference has noise", rank(koksma.render("ball", "random", 1, **SMALL))),
+                    ("was it interrupted", rank(ball * (np.arange(24) < 12)[:, None, None])),
                     ("a processed picture of ball has 25", rank(process=lambda x: x * 255)),
                     ("the light of the reference", lambda: koksma.rank_to_error("ball", 0.1, ["random"], reference=ball * 255, time_limit=1))],
                    [rank(ball), rank(process=lambda x: (x + np.roll(x, 1, 0)) / 2), rank(),

@@ -385,6 +385,11 @@ static koksma_status check_size(ranking *r, koksma_rank_check *check)
     contest.asked = &r->contest;
     status = status ? status : check_best(&contest, leader, check);
     koksma__contest_fini(&contest);
+    if (koksma__rank_leaves_out(status)) { /* the ranking stays */
+        *check = (koksma_rank_check){.width = check->width, .height = check->height};
+        check->advice.state = check->first.state = KOKSMA_RANK_FAILED;
+        status = KOKSMA_OK;
+    }
     return status;
 }
 

@@ -41,7 +41,7 @@
  * as mean - (replicate r - mean) / (k - 1) for k replicates, so that equal replicates give exactly equal means.
  */
 
-enum { REPLICATES = KOKSMA__RANK_REPLICATES, LEAST_SPP = 16, STAGE_1 = 3, STAGE_2 = 7 };
+enum { REPLICATES = KOKSMA__RANK_REPLICATES, LEAST_SPP = 16, STAGE_1 = 3, STAGE_2 = 7, LEAST_PIXELS = 256 };
 
 /* The stage of the reference against which the trials of a round are measured. */
 static int stage_of(int round)
@@ -374,36 +374,74 @@ static koksma_status make_image(const koksma__contest *c, koksma__contestant *p,
     return status || !c->options->process ? status : process(c, run, image);
 }
 
-/* Notes what the first picture tells of a reference that was given, or of a process; and also other patterns' first
-   pictures, of a reference with more noise. */
-static koksma_status doubt(const batch *b, bool first, const koksma_image *image)
+/* Notes what a picture tells of a reference that was given, or of a process. */
+static koksma_status doubt(const batch *b, const koksma_image *image)
 {
     koksma__contest *c = b->contest;
-    const koksma_rank_options *o = c->options;
-    const char *made = o->process ? "processed picture" : "picture";
+    const char *made = c->options->process ? "processed picture" : "picture";
     koksma_image mean;
-    double factor;
+    double number;
     KOKSMA__TRY(koksma_image_init(&mean, image->width, image->height, image->channels));
     for (size_t i = 0; i < b->reference->pixels * (size_t)image->channels; i++) {
         mean.pixels[i] = (float)luminance(b->reference, i / (size_t)image->channels);
     }
-    const koksma__likeness like = koksma__image_likeness(image, &mean, o->reference_image && !o->process, &factor);
+    const koksma__likeness like = koksma__image_likeness(image, &mean, false, &number);
     koksma_image_fini(&mean);
-    pthread_mutex_lock(&c->lock);
-    if (like == KOKSMA__LIKE_SCALED && first) {
+    if (like == KOKSMA__LIKE_SCALED) {
         koksma__snprintf(c->doubt, sizeof c->doubt,
                          "a %s of %s has %.4g times the light of the reference; do the units differ?", made,
-                         c->scene.name, factor);
-    } else if (like == KOKSMA__LIKE_ANOTHER && first) {
+                         c->scene.name, number);
+    } else if (like == KOKSMA__LIKE_WHOLE) {
+        koksma__snprintf(c->doubt, sizeof c->doubt,
+                         "%.0f pixels of the reference are black, and not in a %s of %s: was it interrupted, or is "
+                         "it of direct light?",
+                         number, made, c->scene.name);
+    } else if (like == KOKSMA__LIKE_ANOTHER) {
         snprintf(c->doubt, sizeof c->doubt,
                  "a %s of %s differs from the reference by more than noise: another scene, view or exposure?", made,
                  c->scene.name);
-    } else if (like == KOKSMA__LIKE_SMOOTHER && !c->doubt[0]) {
-        snprintf(c->doubt, sizeof c->doubt,
-                 "the reference has more noise than a picture of %d samples a pixel, and is taken as exact", o->spp);
     }
-    pthread_mutex_unlock(&c->lock);
     return KOKSMA_OK;
+}
+
+/* Whether doubts about a given reference, or a process, are wanted. */
+static bool doubts(const koksma__contest *c)
+{
+    return c->options->doubt && (c->options->reference_image || c->options->process) && !c->asked;
+}
+
+/* After the first round, notes that a part of the error of every unbiased pattern is the same in all its pictures: the
+   reference has it. If it leaves bands in all, it is no noise, and even a small part tells. A fifth of the squared error
+   is noise of a quarter of the pictures' variance. */
+static void doubt_reference(koksma__contest *c)
+{
+    double least = 1;
+    size_t n = 0, n_bands = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        const koksma__contestant *p = &c->contestants[i];
+        const bool biased = !c->options->render && koksma__image_pattern_is_biased(c->options->patterns[p->pattern]);
+        if (p->coherence.images && !biased) {
+            least = fmin(least, p->coherence.common);
+            n_bands += p->coherence.coherent;
+            n++;
+        }
+    }
+    const bool bands = n && n_bands == n;
+    if (c->doubt[0] || c->options->process || c->options->adaptive || c->references[0].pixels < LEAST_PIXELS ||
+        least < (bands && n > 1 ? 1e-3 : 0.2) || least > 0.999) {
+        return;
+    }
+    if (bands) {
+        snprintf(
+            c->doubt, sizeof c->doubt,
+            "the pictures of each pattern agree with each other, but not with the reference: another integrator, "
+            "depth, filter or exposure?");
+    } else {
+        koksma__snprintf(c->doubt, sizeof c->doubt,
+                         "the reference has noise: at least %.0f %% of each pattern's squared error is in all its "
+                         "pictures, so that errors are too large by %.0f %% or more",
+                         100 * least, 100 * (sqrt(1 / (1 - least)) - 1));
+    }
 }
 
 /* Measures the errors of a trial. In the first round, also adds the errors of its pixels to the sums from
@@ -414,10 +452,9 @@ static koksma_status measure_trial(const batch *b, koksma__contestant *p, size_t
     koksma_image image;
     koksma_status status = make_image(b->contest, p, trial, run, &image);
     if (!status) {
-        const koksma__contest *c = b->contest;
-        const bool tells = c->options->doubt && (c->options->reference_image || c->options->process) && !c->asked;
+        const bool tells = !trial && p == &b->contest->contestants[b->active[0]] && doubts(b->contest);
         status = compare_with(b->reference, &image, errors);
-        status = status || !tells || trial ? status : doubt(b, p == &c->contestants[b->active[0]], &image);
+        status = status || !tells ? status : doubt(b, &image);
         status = status || isfinite(errors[0])
                      ? status
                      : koksma__fail(KOKSMA_IMPOSSIBLE, "pixels of trial %zu are not finite numbers", trial);
@@ -603,6 +640,9 @@ static koksma_status do_round(koksma__contest *c, int round, const size_t *activ
         status = do_batch(&b);
     }
     free(b.errors);
+    if (!status && !round && doubts(c)) {
+        doubt_reference(c);
+    }
     if (c->doubt[0]) {
         c->options->doubt(c->options->doubt_context, c->doubt);
         c->doubt[0] = '\0';

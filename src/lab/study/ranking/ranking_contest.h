@@ -98,9 +98,9 @@ typedef struct koksma__contest {
         robust; /* that of the errors without a few pixels: their rounds; all else is set where it is used */
     koksma__rank_reference references[KOKSMA__RANK_STAGES]; /* pixels is 0 before a stage is begun */
     atomic_ullong looked;                                   /* millionths of images that the first look rendered */
-    char doubt[KOKSMA_RANK_REASON];                         /* what a first trial looks like beside the reference */
+    char doubt[KOKSMA_RANK_REASON];                         /* what the first trials look like beside the reference */
     unsigned long long share_ns; /* thread time allowed for a pattern's first round; 0: no limit */
-    pthread_mutex_t lock;        /* guards `doubt`, and `reason` of all contestants */
+    pthread_mutex_t lock;        /* guards `reason` of all contestants */
 } koksma__contest;
 
 /* Whether a failed picture only takes its pattern out of the ranking. Others end the ranking. */
