@@ -354,6 +354,7 @@ _OF_PYTHON = (  # what the library says of the program and of C, as this package
     (r"'koksma list (\w+)'", r"koksma.\1()"),
     (r"--allow-exec allows that \(koksma_allow_exec in C, koksma.allow_exec in Python\)", "'with koksma.allow_exec():' around the call allows that"),
     (r"^koksma_\w+: ", ""),
+    (r"--[a-z-]+ \((\w+)\)", r"\1"),
     (r"^n_(beside)\b", r"\1"),
     (r"^([a-z].*): the number of points is missing$", r"\1: n, the number of points, is missing"),
 )

@@ -129,7 +129,9 @@ class Vocabulary(unittest.TestCase):
                 (koksma.rank_to_error, ["ball", ["sobol"], 0.1], {}, "(scene, target_error, patterns)"), (koksma.mask, [(64, 64)], {}, "mask(filter, size)"),
                 (koksma.mask, [], {"sigma": 1}, "gaussian:sigma=1"), (koksma.mask_quality, ["box:size=3", points], {}, "(mask, filter)"),
                 (koksma.write_mask, [points, "m.png"], {}, "write_mask(path, mask)"), (koksma.datasheet, [["sobol", "random"]], {}, "beside="),
-                (koksma.plot_convergence, [[1]], {}, "*results")):
+                (koksma.plot_convergence, [[1]], {}, "*results"), (koksma.trials, ["random", [16, 64]], {}, "convergence(pattern"),
+                (koksma.verify, [np.stack([points, points])], {}, "points[0]"), (koksma.convergence, ["random"], {"n": [4, 8, 16]}, "did you mean sizes?"),
+                (koksma.integrate, [lambda x: x[:, 0], 2], {"tolerance": 1e-9, "max_points": 100}, "are more than max_points, 100")):
             with self.assertRaises((TypeError, koksma.ArgumentError)) as caught:
                 function(*values, **named)
             self.assertIn(said, str(caught.exception))
