@@ -67,13 +67,13 @@ TEST_CASE(strips_equal_reference)
 {
     double x[200], y[200], sides[6][16], a[2][16], b[2][16];
     for (size_t i = 0; i < 200; i++) {
-        x[i] = sets_unit(1, i);
+        x[i] = floor(32 * sets_unit(1, i)) / 32; /* many are on sides */
         y[i] = ((double)i + sets_unit(2, i)) / 200;
     }
     for (size_t count = 0; count <= 200; count += 1 + count / 3) {
         for (size_t l = 0; l < 16; l++) {
-            sides[0][l] = sides[3][l] = 0.5 * sets_unit(3, l + count);
-            sides[1][l] = sides[4][l] = 0.5 + 0.5 * sets_unit(4, l + count);
+            sides[0][l] = sides[3][l] = floor(16 * sets_unit(3, l + count)) / 32;
+            sides[1][l] = sides[4][l] = 0.5 + floor(16 * sets_unit(4, l + count)) / 32;
             sides[2][l] = 190 * (sides[1][l] - sides[0][l]);
             sides[5][l] = 210 * (sides[1][l] - sides[0][l]);
         }
@@ -204,8 +204,8 @@ TEST_CASE(runs_bound_their_strips)
             expect_bounds(&all, &lists[i], &set, N, false);
             from = &lists[i];
         }
-        set.a2 = set.a1;
-        set.b2 = set.b1;
+        set.a1 = set.a2 = fmin(x[seed], x[N - 1 - seed]); /* both are points' */
+        set.b1 = set.b2 = fmax(x[seed], x[N - 1 - seed]);
         set.narrow = set.wide = N * (set.b1 - set.a1);
         assert_true(koksma__run_list_narrow(&all, &set, &lists[0]));
         expect_bounds(&all, &lists[0], &set, N, true);

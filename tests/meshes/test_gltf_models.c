@@ -190,20 +190,21 @@ TEST_CASE(emission_is_multiplied_with_its_texture)
 }
 
 /* The light of an image whose halves add to 1 at every point, sampled from above its middle: half of the solid angle of a
-   square (arcsines of its corners), and each sample has the density that a ray to its position gets. */
+   square (arcsines of its corners), here of area 1/4, and each sample has the density that a ray to its position gets. */
 TEST_CASE(glow_is_sampled_by_its_texture)
 {
     need_meshes();
     koksma_scene *scene;
     koksma__lights lights;
     write_image("texture.pfm", 4, (const float[]){0, 0, 1, 1});
-    write_model("square.gltf",
-                &(model){.nodes = "{\"mesh\": 0}, " LAMP_AT("0", "3"), .roots = "0, 1, 2", .material = GLOW});
+    write_model("square.gltf", &(model){.nodes = "{\"mesh\": 0, \"scale\": [0.25, 0.25, 1]}, " LAMP_AT("0", "3"),
+                                        .roots = "0, 1, 2",
+                                        .material = GLOW});
     assert_ok(koksma_scene_open("square.gltf", &scene));
     assert_ok(koksma__lights_init(scene, &lights));
     const koksma__shading_light *light = &lights.lights[0];
     assert_ptr_equal(light->kind, &koksma__light_mesh);
-    const float p[3] = {0, 0, 2};
+    const float p[3] = {0, 0, 0.5f};
     double sum[3] = {0};
     enum { N = 200 };
     for (int i = 0; i < N * N; i++) {
@@ -212,7 +213,7 @@ TEST_CASE(glow_is_sampled_by_its_texture)
         assert_true(light_sample(light, p, u, &beam));
         /* where it meets the square, whose triangles are above and below the diagonal */
         const float x = -2 * beam.w[0] / beam.w[2], y = -2 * beam.w[1] / beam.w[2];
-        const float uv[2] = {0.5f + 0.5f * x, 0.5f + 0.5f * y}, t = -2 / beam.w[2];
+        const float uv[2] = {0.5f + 0.5f * x, 0.5f + 0.5f * y}, t = -0.5f / beam.w[2];
         float radiance[3];
         if (fabsf(x - y) > 1e-4f) {
             const float density = light->kind->met(light, x > y ? 0 : 1, uv, radiance);
