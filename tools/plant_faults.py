@@ -1,217 +1,200 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Plants faults in the code, one at a time, and sees whether the tests find them.
+"""Plants faults in the code and sees whether `make test` finds them.
 
-    tools/plant_faults.py draw SEED [OLD] > faults.json          draw ten faults in each of six areas of src/ and cli/
-    tools/plant_faults.py run faults.json BUILD [EACH] [CTEST..]  try EACH of an area (10); one line of JSON a fault is kept
-                                                                  in faults.results, which a second run continues
+    tools/plant_faults.py SEED OUT [EACH]     EACH faults (10) in each of six areas; writes OUT.json and OUT.md
 
-A fault is a change of one line of C: a constant, a dropped term, an off-by-one (a comparison), a wrong sign. `draw` takes
-lines at random: every line that can be changed, and that is in the tree once, is as likely as another. With OLD, a checkout
-of another commit, only lines are taken that are there once as well, wherever they lie, so that both commits' tests can be
-asked about the same fault. `run` works in the checkout that it is in, which must be clean: it edits the file, builds and
-tests in BUILD (a folder of ninja) in four steps, and puts the file back. The first step's tests have a word of the file's
-name in theirs, the second's the folder's, the third's belong to the area, the fourth's are all others; each stops at the
-first failure, and the first two build nothing but their own programs. CTEST are arguments of ctest; without them no test runs that is nightly or that reads
-the sources' texts (lint). A fault that does not compile is said to be so, and the next of its area takes its place.
+A fault is a change of one line of C, drawn at random: a constant, a dropped term or statement, a bound that is off by one,
+a wrong sign or comparison. What does not compile, or gives the same object code, is no fault. The checkout must be clean,
+after `make test`. Each fault meets the tests nearest to its file first: those with a word of its name, of its folder, the
+short ones of its area. Those not found are planted together for all of `make test` but lint, which would see any changed
+text; each then meets alone what failed near it, and those left together what failed, until all passes. Again, it goes on.
 """
+import contextlib
+import itertools
 import json
-import os
+import pathlib
 import random
 import re
-import resource
 import subprocess
 import sys
 import time
 
-AREAS = {
-    "patterns": (r"^src/engine/(patterns|kernels|warps|optimise)", "pattern|point|key|lattice|net|claim|sampl|kernel|mask|golden|optimise|warp"),
-    "measures": (r"^src/engine/(measures|stats|integrands|verify)", "measure|star|extreme|l2|disk|edge|integr|verify|stat|spectr|golden|curve"),
-    "render": (r"^src/render/(?!scene/)", "render|bsdf|light|shape|camera|film|filter|pixel|integrator|image|adaptive|accel|medium"),
-    "files": (r"^src/(files|render/scene)/", "mesh|image|import|scene|json|gltf|pbrt|mitsuba|domain|format|model|file"),
-    "lab": (r"^src/lab/", "study|report|rank|datasheet|plot|plan|store|table|coverage|document"),
+AREAS = {  # files; words of the names of tests
+    "patterns": (r"^src/engine/(patterns|kernels|masks|optimise|warps)/", "pattern|net|claim|sampl|kernel|mask|values"),
+    "measures": (r"^src/engine/(measures|stats|integrands|verify|identify)/", "measure|star|l2|disk|integr|stat|values"),
+    "render": (r"^src/render/(?!scene/)", "render|bsdf|light|shape|camera|film|filter|pixel|integrator|adaptive|medium"),
+    "files": (r"^src/(files|render/scene)/", "mesh|image|import|scene|json|gltf|pbrt|mitsuba|format|model|file"),
+    "lab": (r"^src/lab/", "study|report|rank|datasheet|plot|plan|store|table|coverage|atlas"),
     "cli": (r"^cli/", "^cli_|datasheet|python"),
 }
-EACH = 10
-LONGEST = 2400  # seconds for the tests of a fault: what hangs is found, by the tests' own limits
-MEMORY = 12 << 30  # bytes for a process, which a fault may want without end
-KINDS = ("constant", "term", "comparison", "sign")
-WORD = r"[A-Za-z_][\w.>\[\]-]*|\d[\w.]*"
+SUITES = [("build/clang", "all", ["-LE", "^(nightly|once|lint)$"]), ("build/dev", "memory-tests", ["-L", "^memory$"])]
+SHORT = (20, 5, 3)  # seconds of a test of each of the first steps
+LONGEST, MEMORY = "400", 12 << 30  # seconds and bytes of any test (sanitizers map more): what hangs or grows is found
+WORD = r"\w[\w.]*(?:->[\w.]+)*(?:\[\w+\])?"
+TEXTS = r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])+\'|//.*?$|/\*.*?\*/|^ *#.*?[^\\]$|^ *case.*?$'  # and what is no expression
+OTHER = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "+": "-", "-": "+", "==": "!=", "!=": "=="}
 
 
-def changes(line):
-    """(kind, changed line) for each single change of this line of code."""
-    code = re.sub(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])+\'|//.*|/\*.*?\*/', lambda m: " " * len(m.group()), line)
-    if re.match(r"\s*(#|\*|/\*|KOKSMA__REQUIRE|case )", code) or not code.strip():
-        return
-
+def changes(line, code, before):
+    """(kind, changed line) for each single change of this line; `code` is it, and `before` the one above, without texts."""
     def put(m, text):
         return line[:m.start()] + text + line[m.end():]
     for m in re.finditer(r"(?<![\w.])\d+(\.\d*)?(e-?\d+)?(?![\w.])", code):
         yield "constant", put(m, str(int(m.group()) + 1) if m.group().isdigit() else "(%s * 1.25)" % m.group())
-    for m in re.finditer(r" [+-] (%s)(?=[;,) ])" % WORD, code):
+    for m in re.finditer(r" [+-] %s(?=[];,)]| [+-] )" % WORD, code):
         yield "term", put(m, "")
-    for m in re.finditer(r" (<=?|>=?) ", code):
-        yield "comparison", put(m, {"<": " <= ", "<=": " < ", ">": " >= ", ">=": " > "}[m.group(1)])
-    for m in re.finditer(r" ([+-]) ", code):
-        yield "sign", put(m, " - " if m.group(1) == "+" else " + ")
+    statement = re.match(r"(\s+)\*?[\w.>\[\]+-]+( [^\w ]*= .*|\(.*)?;$", code.rstrip())
+    whole = re.search(r"[;{}:)]$", before.rstrip()) and code.count("(") == code.count(")")
+    if statement and whole and not re.match(r"\s+(return|break|continue)", code):
+        yield "statement", statement.group(1) + ";"
+    for kind, signs in (("bound", "<=?|>=?"), ("sign", "[+-]"), ("comparison", "[=!]=")):
+        for m in re.finditer(r"(?<= )(%s)(?= )" % signs, code):
+            yield kind, put(m, OTHER[m.group()])
 
 
-def listed(root):
-    return subprocess.run(["git", "ls-files", "src/*.c", "cli/*.c"], cwd=root, capture_output=True, text=True, check=True).stdout.split()
+def draw(seed, area):
+    """All faults of an area in random order, one kind after the other."""
+    found = {kind: [] for kind in ("constant", "term", "statement", "bound", "sign", "comparison")}
+    for path in run("git", "ls-files", "src/*.c", "cli/*.c").stdout.split():
+        if re.search(AREAS[area][0], path):
+            text = pathlib.Path(path).read_text()
+            codes = re.sub(TEXTS, lambda m: re.sub(r"[^\n]", " ", m.group()), text, flags=re.S | re.M).split("\n")
+            for number, line in enumerate(text.split("\n")):
+                for kind, changed in changes(line, codes[number], codes[number - 1]):
+                    found[kind].append({"area": area, "file": path, "line": number + 1, "kind": kind, "to": changed,
+                                        "from": line.strip()})
+    for kind, faults in found.items():
+        random.Random("%s %s %s" % (seed, area, kind)).shuffle(faults)
+    return itertools.chain(*zip(*found.values()))
 
 
-def places(root):
-    """{line without indentation: [(path, number from 0)]} of a checkout."""
-    found = {}
-    for path in listed(root):
-        with open(os.path.join(root, path), encoding="utf-8") as file:
-            for number, line in enumerate(file):
-                found.setdefault(line.strip(), []).append((path, number))
-    return found
-
-
-def draw(seed, old):
-    here = places(".")
-    there = places(old) if old else here
-    drawn = []
-    for area, (where, _) in AREAS.items():
-        choice = random.Random("%s %s" % (seed, area))
-        found = {kind: [] for kind in KINDS}
-        for path in sorted(p for p in listed(".") if re.search(where, p)):
-            with open(path, encoding="utf-8") as file:
-                comment = False
-                for line in file:
-                    comment = comment or line.lstrip().startswith("/*")
-                    text = line.strip()
-                    if not comment and len(here[text]) == 1 and len(there.get(text, ())) == 1:
-                        for kind, changed in changes(text):
-                            found[kind].append({"area": area, "file": path, "kind": kind, "from": text, "to": changed})
-                    comment = comment and "*/" not in line
-        for kind in KINDS:
-            choice.shuffle(found[kind])
-        # Ten at first, the rest to take the place of those that do not compile.
-        drawn += [found[KINDS[i % 4]][i // 4] for i in range(3 * EACH)]
-    return drawn
-
-
-class Planted:
-    """A file with the fault in it, put back at the end."""
-
-    def __init__(self, fault):
-        found = places(".").get(fault["from"], [])
-        if len(found) != 1:
-            sys.exit("'%s' is in %d places: draw the faults anew" % (fault["from"], len(found)))
-        self.path, self.number = found[0]
-        self.fault = fault
-
-    def __enter__(self):
-        with open(self.path, encoding="utf-8") as file:
-            self.text = file.read()
-        lines = self.text.split("\n")
-        lines[self.number] = lines[self.number].replace(self.fault["from"], self.fault["to"])
-        self.write("\n".join(lines))
-        return self
-
-    def __exit__(self, *_):
-        self.write(self.text)
-
-    def write(self, text):
-        with open(self.path, "w", encoding="utf-8") as file:
-            file.write(text)
-
-
-def steps(path, area, build, arguments):
-    """Four lists of names of tests, the likeliest to find a fault in `path` first."""
-    shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1", *arguments], capture_output=True, text=True, check=True)
-    names = [test["name"] for test in json.loads(shown.stdout)["tests"]]
-    words = [w for w in re.split(r"[_.]", os.path.basename(path)[:-2]) if len(w) > 2]
-    folder = os.path.basename(os.path.dirname(path)).rstrip("s")
-    ways = ["|".join(words) or "$^", folder, AREAS[area][1], ""]
-    taken, out = set(), []
-    for way in ways:
-        out.append([n for n in names if n not in taken and re.search(way, n)])
-        taken.update(out[-1])
-    return out
-
-
-def bounded():
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-
-
-def built(build, targets):
-    return subprocess.run(["ninja", "-C", build, *targets], capture_output=True).returncode == 0
-
-
-def failure(build, tests):
-    """The name of a test of these that fails, or None."""
-    command = ["ctest", "--test-dir", build, "-j", str(os.cpu_count()), "--stop-on-failure", "-R", "^(%s)$" % "|".join(map(re.escape, tests))]
+@contextlib.contextmanager
+def planted(faults):
+    """These faults in their files, which are git's again at the end."""
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, preexec_fn=bounded)
-    except subprocess.TimeoutExpired:
-        return "hangs"
-    failed = re.search(r"Test +#\d+: (\S+) \.*\*\*\*(?!Skipped|Not Run)", done.stdout)
-    if done.returncode and not failed:
-        return "ctest: " + (done.stderr or done.stdout).strip()[-200:]
-    return failed.group(1) if failed else None
+        for fault in faults:
+            path = pathlib.Path(fault["file"])
+            lines, n = path.read_text().split("\n"), fault["line"]
+            path.write_text("\n".join([*lines[:n - 1], fault["to"], *lines[n:]]))
+        yield
+    finally:
+        run("git", "checkout", "-q", "--", *(fault["file"] for fault in faults))
 
 
-def attempt(fault, build, arguments):
-    """(the test that found it, or why there is none; seconds; tests that were to run until then)"""
-    start = time.time()
-    with Planted(fault) as planted:
-        targets = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], capture_output=True, text=True, check=True).stdout
-        ran = 0
-        for number, tests in enumerate(steps(planted.path, fault["area"], build, arguments)):
-            own = [t for t in tests if "\n%s: phony" % t in targets]
-            if not built(build, ["koksma-program", *own] if number < 2 else []):
-                return "does not compile", 0, 0
-            found = failure(build, tests) if tests else None
-            ran += len(tests)
-            if found:
-                return found, round(time.time() - start), ran
-    return "not found", round(time.time() - start), ran
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True)
 
 
-def run(path, build, each, arguments):
-    with open(path, encoding="utf-8") as file:
-        faults = json.load(file)
-    results = re.sub(r"\.json$", "", path) + ".results"
-    done = {}
-    if os.path.exists(results):
-        with open(results, encoding="utf-8") as file:
-            done = {(r["from"], r["to"]): r for r in map(json.loads, file)}
-    if subprocess.run(["git", "diff", "--quiet", "HEAD", "--", "src", "cli"]).returncode:
+def built(build, *targets):
+    return run("ninja", "-C", build, "-j2", *targets).returncode == 0
+
+
+def failures(build, tests, *options):
+    """The tests of these that fail."""
+    names = "^(%s)$" % "|".join(map(re.escape, tests))
+    ctest = ["ctest", "--test-dir", build, "-j2", "--timeout", LONGEST, *options, "-R", names]
+    ran = run("prlimit", "--data=%s" % ("unlimited" if build == "build/dev" else MEMORY), *ctest)
+    failed = re.findall(r"Test +#\d+: (\S+) \.*[^*\n]*\*\*\*(?!Skipped)", ran.stdout)
+    if ran.returncode and not failed:
+        sys.exit("ctest: " + (ran.stderr or ran.stdout)[-400:])
+    return failed
+
+
+def tests_of(build, options):
+    """{test: (seconds when it last ran, its labels)}"""
+    shown = json.loads(run("ctest", "--test-dir", build, "--show-only=json-v1", *options).stdout)["tests"]
+    past = pathlib.Path(build, "Testing/Temporary/CTestCostData.txt").read_text()
+    cost = dict(re.findall(r"^(\S+) \d+ (\S+)$", past, re.M))
+    labels = {t["name"]: sum((p["value"] for p in t["properties"] if p["name"] == "LABELS"), []) for t in shown}
+    return {name: (float(cost.get(name, 0)), labels[name]) for name in labels}
+
+
+def near(fault, tests):
+    """Three lists of tests, the likeliest to find this fault first."""
+    *_, folder, file = fault["file"].split("/")
+    words = "|".join(w.rstrip("s") for w in re.split(r"[_.]", file[:-2]) if len(w) > 2) or "$^"
+    left = dict(tests)
+    for way, most in zip((words, folder.rstrip("s"), AREAS[fault["area"]][1]), SHORT):
+        step = [t for t, (_, labels) in left.items() if re.search(way, t) or way + "s" in labels]
+        yield [t for t in step if left.pop(t)[0] < most]
+
+
+def report(faults, out):
+    pathlib.Path(out + ".json").write_text(json.dumps(faults, indent=1))
+    rows = ["| area | line | changed to | from | found by | s |\n|---|---|---|---|---|---|\n"]
+    for f in (f for f in faults if f["state"] != "none"):
+        texts = ("`%s`" % f[key].strip().replace("|", "\\|") for key in ("to", "from"))
+        rows.append("| %s | %s:%d | %s | %s | " % (f["area"], f["file"], f["line"], *texts))
+        rows.append("%s | %d |\n" % (f.get("test", "none"), f["seconds"]))
+    pathlib.Path(out + ".md").write_text("".join(rows))
+
+
+def main(seed, out, each="10"):
+    if run("git", "diff", "--quiet", "HEAD", "--", "src", "cli").returncode:
         sys.exit("src and cli have changes that are not committed: faults are planted in a clean checkout")
-    if not built(build, []):
-        sys.exit("%s does not build without a fault" % build)
+    kept = pathlib.Path(out + ".json")
+    faults = json.loads(kept.read_text()) if kept.exists() else []
+    build, target, options = SUITES[0]
+    built(build, target) or sys.exit("%s does not build without a fault" % build)
+    targets = run("ninja", "-C", build, "-t", "targets", "all").stdout
+    objects = re.findall(r"^(\S+\.dir/\S+\.c\.o):", targets, re.M)
+    programs = re.findall(r"^((?:koksma-|test_)\w+): phony", targets, re.M)
+
+    def code(fault):  # the object code of its file, False if it does not compile
+        own = [o for o in objects if fault["file"].endswith(re.sub(r"^.*\.dir/|\.o$", "", o))]
+        return built(build, *own) and [pathlib.Path(build, o).read_bytes() for o in own]
+    unsure = set()  # tests that fail without a fault, as on a busy machine
+
+    def ask(fault, steps, build):
+        """Runs the steps with this fault alone until a test fails that passes without it."""
+        start, steps = time.time(), [list(step) for step in steps]
+        while fault["state"] == "survived" and steps:
+            step = [t for t in steps[0] if t not in unsure]
+            with planted([fault]):
+                near_by = [p for p in programs if p in step or p.startswith("koksma-")]
+                targets = ["memory-tests"] if build == "build/dev" else near_by
+                built(build, *targets) or sys.exit("%s with %s does not link" % (build, fault))
+                failed = step and failures(build, step, "--stop-on-failure")
+            if not failed:
+                del steps[0]
+            elif built(build, *targets) and not failures(build, failed[:1]):
+                fault.update(state="found", test=failed[0])
+            else:
+                unsure.add(failed[0])
+        fault["seconds"] = round(fault.get("seconds", 0) + time.time() - start)
+        report(faults, out)
+        print("%(area)s %(file)s:%(line)d %(to)s | %(state)s in %(seconds)d s" % fault, fault.get("test", ""), flush=True)
+
+    tests = tests_of(build, options)
     for area in AREAS:
-        left = each
-        for fault in (f for f in faults if f["area"] == area):
-            if not left:
+        known = [f for f in faults if f["area"] == area]
+        for fault in itertools.islice(draw(seed, area), len(known), None):
+            if sum(f["state"] != "none" for f in known) == int(each):
                 break
-            result = done.get((fault["from"], fault["to"]))
-            if not result:
-                outcome, seconds, ran = attempt(fault, build, arguments)
-                result = dict(fault, outcome=outcome, seconds=seconds, tests=ran)
-                with open(results, "a", encoding="utf-8") as file:
-                    file.write(json.dumps(result) + "\n")
-            print("%-9s %-10s %s  %s in %s s  %s" % (area, fault["kind"], os.path.basename(fault["file"]), result["outcome"],
-                                                   result["seconds"], fault["to"]), flush=True)
-            left -= result["outcome"] != "does not compile"
-
-
-def main():
-    arguments = sys.argv[1:]
-    if arguments[:1] == ["draw"] and len(arguments) in (2, 3):
-        json.dump(draw(arguments[1], arguments[2] if len(arguments) > 2 else None), sys.stdout, indent=0)
-    elif arguments[:1] == ["run"] and len(arguments) >= 3:
-        each = int(arguments[3]) if len(arguments) > 3 and arguments[3].isdigit() else EACH
-        rest = [a for a in arguments[3:] if not a.isdigit()]
-        run(arguments[1], os.path.abspath(arguments[2]), each, rest or ["-LE", "^(nightly|lint)$"])
-    else:
-        sys.exit(__doc__)
+            good = code(fault)
+            with planted([fault]):
+                fault["state"] = "none" if code(fault) in (good, False) else "survived"
+            faults.append(fault)
+            known.append(fault)
+            if fault["state"] != "none":
+                ask(fault, near(fault, tests), build)
+    for build, target, options in SUITES:
+        tests = tests_of(build, options)
+        while tests:
+            left = [f for f in faults if f["state"] == "survived"]
+            with planted(left):
+                built(build, target) or sys.exit("%s does not build with all that are left" % build)
+                failed = set(failures(build, list(tests))) - unsure
+            tests = {t: (0, tests[t][1]) for t in sorted(failed, key=lambda t: tests[t][0])}
+            print(build, "with", len(left), "faults fails:", *tests, flush=True)
+            for fault in left:
+                ask(fault, near(fault, tests), build)
+            if all(f["state"] == "survived" for f in left):  # no failure is of a test that is near: ask each
+                for fault in left:
+                    ask(fault, ([t] for t in tests), build)
+                break
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:]) if len(sys.argv) in (3, 4) else sys.exit(__doc__)
