@@ -325,7 +325,7 @@ static void tell_channels(const char *path, const koksma_mask *mask, const koksm
     float *values = malloc(n * sizeof *values);
     koksma_mask_quality q;
     for (size_t i = 0; values && i < n; i++) {
-        values[i] = (float)((mask->values[i * (size_t)space->dim] - space->low) / (space->high - space->low));
+        values[i] = (float)(((double)mask->values[i * (size_t)space->dim] - space->low) / (space->high - space->low));
     }
     if (values && !koksma_mask_measure(mask->width, mask->height, alone, values, filter, tests_of(alone), run, &q) &&
         q.error / q.white < 0.9 * ratio) {
