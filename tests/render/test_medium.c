@@ -383,8 +383,8 @@ static koksma__medium random_medium(int round)
     m.in_shape = round % 7 > 4;
     m.is_ball = round % 7 == 6;
     for (int k = 0; k < 3; k++) {
-        m.low[k] = round % 3 ? uniform(-2, 0) : -INFINITY;
-        m.high[k] = round % 3 ? uniform(0, 2) : INFINITY;
+        m.low[k] = round % 3 ? uniform(-2, 0) : -(double)INFINITY;
+        m.high[k] = round % 3 ? uniform(0, 2) : (double)INFINITY;
         m.inverse[5 * k] = uniform(0.3, 2);
         m.inverse[4 * k + 3] = uniform(-1, 1);
     }
