@@ -19,7 +19,7 @@ from schema import blocks, words
 KOKSMA = Path(sys.argv[1]).resolve()
 PATTERNS = ["random", "jittered", "n-rooks", "halton", "multi-jittered", "hammersley"]
 PLANS = [(["star", "min-distance", "l2-star"], [16, 64], 3), (["star", "l2-periodic"], [9], 20), (["l2-star"], [256], 100), (["star"], [16], 1)]
-problems = checked = by_slopes = 0
+problems = checked = 0
 kinds = set()
 
 
@@ -96,14 +96,6 @@ for measures, sizes, trials in PLANS:
             values = {p: [float(r["value"]) for r in rows if (r["pattern"], r["what"], r["n"]) == (p, found[1], found[2])] for p in PATTERNS}
             check(block["answer"], text, {p: v for p, v in values.items() if v}, found[1] == "min-distance")
             checked += 1
-        named = re.search("undecided between .*? falls as [^;]*", text)  # by slopes: narrow intervals first, none last
-        of = re.findall(r" as N-?[.0-9]+(?: \((\S+) to (\S+)\))?", named.group()) if named else []
-        widths = [float(high) - float(low) if low else math.inf for low, high in of]
-        if any(b < a - 0.002 for a, b in zip(widths, widths[1:])):
-            complain(f"not by widths: {text}")
-        by_slopes += len(widths) > 1
-if not by_slopes:
-    complain("no answer by slopes names several patterns")
 if checked != sum(len(measures) for measures, _, _ in PLANS):
     complain(f"{checked} answers were checked")
 if len(kinds) < 2:
