@@ -156,7 +156,7 @@ TEST_CASE(doubts_by_construction)
     }
     koksma_image noisy = slope(1, 1, false, 1), better = slope(0.2, 1, false, 2), colours, other;
     assert_non_null(strstr(koksma_image_doubt(&better, &noisy, true), "less noise"));
-    assert_string_equal(koksma_image_doubt(&better, &noisy, false), "");
+    assert_non_null(strstr(koksma_image_doubt(&better, &noisy, false), "noise of its own"));
     memset(noisy.pixels + 512, 0, 256 * sizeof *noisy.pixels);
     assert_non_null(strstr(koksma_image_doubt(&noisy, &reference, true), "256 of its pixels are black"));
     assert_non_null(strstr(koksma_image_doubt(&reference, &noisy, true), "256 pixels of the reference are black"));

@@ -2,6 +2,8 @@
 /* What in an image, beside the reference that it is compared with, looks like a mistake, but can be compared. */
 #include "image/doubt.h"
 
+#include <math.h>
+
 #include "core/c_locale.h"
 #include "image/image.h"
 
@@ -11,6 +13,7 @@ enum { LEAST = 256 }; /* pixels, below which nothing is said of noise and factor
    their roughness, the difference between a pixel and the mean of its neighbours at the left and right. */
 typedef struct sums {
     double x, y, xx, xy, yy, rough_xx, rough_xy, rough_yy, n, inner;
+    double doubt;    /* of the squares of roughness y (roughness y - roughness x), whose sum tells the noise of y */
     double rgb, bgr; /* squared differences of the colours, and with those of the image in reverse */
     bool equal, grey;
 } sums;
@@ -56,6 +59,7 @@ static sums sums_of(const koksma_image *image, const koksma_image *reference, co
             s.rough_xx += rough_x * rough_x;
             s.rough_xy += rough_x * rough_y;
             s.rough_yy += rough_y * rough_y;
+            s.doubt += rough_y * rough_y * (rough_y - rough_x) * (rough_y - rough_x);
             s.inner++;
         }
     }
@@ -135,12 +139,12 @@ koksma__likeness koksma__image_likeness(const koksma_image *image, const koksma_
     if (4 * s.bgr < s.rgb) {
         return KOKSMA__LIKE_REVERSED;
     }
-    /* If only the reference has noise, independent of the picture, rough_yy = rough_xx + that of the difference; if only
-       the image has noise, the reverse. Half way between the reference has 3 times the image's variance. What differs
-       otherwise, as by gamma or swapped channels, is no noise. */
-    if (order && !s.grey && whole < noise(&s, 1) &&
-        2 * (s.rough_yy - s.rough_xx) > s.rough_xx - 2 * s.rough_xy + s.rough_yy) {
-        return KOKSMA__LIKE_SMOOTHER;
+    /* With independent noises the mean of y (y - x) is that of the reference's noise alone, and counts if it is above 2.5
+       standard errors. What differs otherwise, as by gamma or swapped channels, is no noise. */
+    const double theirs = s.rough_yy - s.rough_xy, part = theirs / (s.rough_xx - s.rough_xy + theirs);
+    if (!s.grey && whole < noise(&s, 1) && theirs > 2.5 * sqrt(s.doubt) && part > 0.2) {
+        *number = 100 * (sqrt(1 / (1 - fmin(part, 0.96))) - 1);
+        return order && part > 0.75 ? KOKSMA__LIKE_SMOOTHER : KOKSMA__LIKE_NOISY;
     }
     return s.grey ? KOKSMA__LIKE_GREY : KOKSMA__LIKE_NOISE;
 }
@@ -159,6 +163,7 @@ const char *koksma_image_doubt(const koksma_image *image, const koksma_image *re
         [KOKSMA__LIKE_ANOTHER] = "it differs from the reference by more than noise: another scene, view or exposure?",
         [KOKSMA__LIKE_REVERSED] = "its colours are like the reference's in reverse: are they blue, green and red?",
         [KOKSMA__LIKE_SMOOTHER] = "it has less noise than the reference, which comes last; are the two swapped?",
+        [KOKSMA__LIKE_NOISY] = "the reference has noise of its own, by which errors are about %.0f %% too large",
         [KOKSMA__LIKE_GREY] =
             "only one of it and the reference has colours; errors are of luminance but for metrics of colours",
     };
