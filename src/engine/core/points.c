@@ -43,18 +43,28 @@ koksma_status koksma__points_check(const koksma_points *points)
     return status;
 }
 
-koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
+static koksma_status make_room(koksma_points *points, size_t n, int dim, bool clear)
 {
-    KOKSMA__REQUIRE(points);
     *points = (koksma_points){0};
     KOKSMA__FAIL_IF(n == 0, KOKSMA_ARGUMENT, "n = 0: a set has at least 1 point");
     KOKSMA__TRY(koksma__points_fit(n, dim));
-    points->xs = calloc(n * (size_t)dim, sizeof *points->xs);
+    points->xs = clear ? calloc(n * (size_t)dim, sizeof *points->xs) : malloc(n * (size_t)dim * sizeof *points->xs);
     KOKSMA__REQUIRE_MEMORY(points->xs, n * (size_t)dim * sizeof *points->xs);
     koksma__large_pages(points->xs, n * (size_t)dim * sizeof *points->xs);
     points->n = n;
     points->dim = dim;
     return KOKSMA_OK;
+}
+
+koksma_status koksma__points_room(koksma_points *points, size_t n, int dim)
+{
+    return make_room(points, n, dim, false);
+}
+
+koksma_status koksma_points_init(koksma_points *points, size_t n, int dim)
+{
+    KOKSMA__REQUIRE(points);
+    return make_room(points, n, dim, true);
 }
 
 void koksma_points_fini(koksma_points *points)

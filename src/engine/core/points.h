@@ -11,6 +11,10 @@
    DIM. */
 KOKSMA__LAB koksma_status koksma__points_fit(size_t n, int dim);
 
+/* Allocates points as koksma_points_init does, with coordinates that the caller sets: whoever reads a large file need not
+   clear them. */
+koksma_status koksma__points_room(koksma_points *points, size_t n, int dim);
+
 /* Fails unless the set has points, its size is within the limits, and each coordinate is in [0,1] (NaN is not). Every
    public function that takes points, unless it documents another rule, makes this check first. Errors: ARGUMENT, DIM. */
 KOKSMA__LAB koksma_status koksma__points_check(const koksma_points *points);

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "core/parallel.h"
+#include "core/points.h"
 #include "core/status.h"
 
 enum { MAX_HEADER = 4096, ITEMS_AT_ONCE = 8192, /* read, or converted */ WRITTEN_AT_ONCE = 1 << 18 };
@@ -214,8 +215,9 @@ static koksma_status read_items(FILE *stream, const char *name, const layout *l,
     const size_t n_items = l->n * l->dim;
     const bool ready = l->kind == 'f' && l->item_size == sizeof *points->xs && !l->fortran_order &&
                        l->big_endian != is_little_endian(); /* the numbers lie in the file as in memory */
-    for (size_t first = 0; first < n_items; first += ITEMS_AT_ONCE) {
-        const size_t wanted = n_items - first < ITEMS_AT_ONCE ? n_items - first : ITEMS_AT_ONCE;
+    const size_t at_once = ready ? 8 * ITEMS_AT_ONCE : ITEMS_AT_ONCE; /* 512 KiB of a cache, or the bytes here */
+    for (size_t first = 0; first < n_items; first += at_once) {
+        const size_t wanted = n_items - first < at_once ? n_items - first : at_once;
         double *xs = points->xs + first;
         const size_t got = fread(ready ? (void *)xs : bytes, l->item_size, wanted, stream);
         const bool done = ready && are_coordinates(xs, got);
@@ -303,7 +305,7 @@ koksma_status koksma__points_read_npy(FILE *stream, const char *name, bool mappe
         status = check_length(stream, name, &l);
     }
     if (!status) {
-        status = koksma_points_init(points, l.n, (int)l.dim);
+        status = koksma__points_room(points, l.n, (int)l.dim);
     }
     if (!status) {
         status = read_items(stream, name, &l, points);
