@@ -214,7 +214,7 @@ static koksma_status read_items(FILE *stream, const char *name, const layout *l,
     unsigned char bytes[8 * ITEMS_AT_ONCE];
     const size_t n_items = l->n * l->dim;
     const bool ready = l->kind == 'f' && l->item_size == sizeof *points->xs && !l->fortran_order &&
-                       l->big_endian != is_little_endian(); /* the numbers lie in the file as in memory */
+                       l->big_endian != is_little_endian();           /* the numbers lie in the file as in memory */
     const size_t at_once = ready ? 8 * ITEMS_AT_ONCE : ITEMS_AT_ONCE; /* 512 KiB of a cache, or the bytes here */
     for (size_t first = 0; first < n_items; first += at_once) {
         const size_t wanted = n_items - first < at_once ? n_items - first : at_once;
