@@ -117,8 +117,9 @@ KOKSMA_API koksma_status koksma_image_compare(const koksma_image *image, const k
 
 /* Returns what looks like a mistake in an image beside the reference that it is compared with, as one line without their
    names: equal images, one with black parts where the other has none, a picture that has the reference's light times a
-   factor, one of another scene, a grey one beside colours. "": nothing, or images of different sizes. The string is valid
-   until the thread calls this again.
+   factor, one of another scene, red and blue exchanged, a reference with a fifth or more of the noise of both, a grey one
+   beside colours. "": nothing, or images of different sizes. Of large images about 32,768 pixels are looked at. The string
+   is valid until the thread calls this again.
      order  also say that the image has less noise than the reference, as if they were swapped */
 KOKSMA_API const char *koksma_image_doubt(const koksma_image *image, const koksma_image *reference, bool order);
 

@@ -15,11 +15,10 @@ typedef struct koksma__sample {
     koksma_identities *found;
     double width, largest; /* of the box of the points in the file, which is mapped; the largest number in it */
     bool floats;           /* all numbers are floats, and may be rounded to them */
-    double
-        few_digits; /* their tolerance, if they have too few decimals for all tests but that of sequences as they are */
-    bool named;     /* a statement says where the points come from */
-    int scramble;   /* the strongest relation to a sequence so far, of koksma__relation */
-    size_t before; /* number of statements before that one, which a stronger one replaces */
+    double few_digits;     /* tolerance of so few decimals that only sequences as they are can be tested; 0: more */
+    bool named;            /* a statement says where the points come from */
+    int scramble;          /* the strongest relation to a sequence so far, of koksma__relation */
+    size_t before;         /* number of statements before that one, which a stronger one replaces */
 } koksma__sample;
 
 /* Adds a statement, whose detail is a format; `what` has to be filled by the caller. NULL when memory runs out. */
