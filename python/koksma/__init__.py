@@ -27,7 +27,8 @@ from ._mask import MaskQuality, mask, mask_quality, read_mask, write_mask
 from ._optimise import Optimum, Record, optimise, radial_power, records
 from ._points import (Finding, Identity, Member, Modifier, Named, Value, Witness, canonical, generate, has_ranges, identify, local_discrepancy, measure, measures,
                       modifiers, patterns, read, verify, verify_sets, warp_points, warps, write)
-from ._plot import Picture, plot, plot_compare, plot_convergence
+from ._picture import Picture, plot
+from ._plot import plot_compare, plot_convergence
 from ._rank import Asked, Ranked, Ranking, SizeCheck, Target, rank, rank_to_error
 from ._render import (Layers, Replicates, SceneCheck, adaptive, check_scene, filters, integrators, read_image, render, render_replicates, scenes,
                       version, write_image)
@@ -75,21 +76,40 @@ else:
 
     _show_types()
 
+    def _with_hints(function: _typing.Any) -> _typing.Any:
+        """The function, whose error on an argument that it lacks names the nearest one that it has."""
+        import re
+        from functools import wraps
+
+        @wraps(function)
+        def called(*values: _typing.Any, **named: _typing.Any) -> _typing.Any:
+            try:
+                return function(*values, **named)
+            except (TypeError, ArgumentError) as error:
+                from ._hints import hint_of_argument, hint_of_values
+
+                found = re.search(r"^.*got an unexpected keyword argument '(\w+)'", str(error))
+                if found and error.__traceback__ is not None and error.__traceback__.tb_next is None:  # not of another call
+                    raise TypeError(found[0] + hint_of_argument(found[1], function)) from None
+                more = hint_of_values(str(error), function, values) if type(error) in (TypeError, ArgumentError) else ""
+                if more and more not in str(error):
+                    error.args = (str(error).split("; ")[0] + more, *error.args[1:])
+                raise
+        return called
+
     def _hint_at_arguments() -> None:
         import sys
         from types import FunctionType
-
-        from ._library import with_hints
 
         hinting = {}  # methods with two names stay one
         for name in __all__:
             item = globals().get(name)
             if isinstance(item, FunctionType):  # in its module, too: pickle looks there
-                globals()[name] = with_hints(item)
+                globals()[name] = _with_hints(item)
                 setattr(sys.modules[item.__module__], item.__name__, globals()[name])
             for method, function in list(vars(item).items()) if isinstance(item, type) else ():
                 if isinstance(function, FunctionType) and not method.startswith("_"):
-                    setattr(item, method, hinting.setdefault(function, with_hints(function)))
+                    setattr(item, method, hinting.setdefault(function, _with_hints(function)))
 
     _hint_at_arguments()
 
@@ -97,9 +117,8 @@ else:
         """Engine on first use: its base is a class of scipy, which takes most of a second to import."""
         if name == "Engine":
             from ._engine import Engine
-            from ._library import with_hints
 
-            Engine.__init__ = with_hints(Engine.__init__)
+            Engine.__init__ = _with_hints(Engine.__init__)
             globals()[name] = Engine
             return Engine
         if name == "__version__":

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._frame import Framed, columns_of
+from ._frame import Framed, columns_of, table
 from ._library import ArgumentError, check, flag, lab, quoted, text, texts, warn
 from ._points import Named, has_masked, named
 
@@ -69,8 +69,6 @@ class Comparison(Framed):
         return f"Comparison({self.images} image{'s' * (self.images != 1)}: mean {self.mean:.6g}, max {self.max:.6g}, {values}{kind})"
 
     def _repr_html_(self) -> str:
-        from ._display import table
-
         rows: List[Tuple[str, float, Union[float, str], str]] = [("mean absolute error", self.mean, "", ""), ("largest", self.max, "", "")]
         rows += [(name, m.value, m.robust, f"{100 * m.top_share:.0f} %") for name, m in self.metrics.items()]
         kind = "bands" if self.coherent else "noise"

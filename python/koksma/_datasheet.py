@@ -9,8 +9,7 @@ from ctypes import byref, c_char_p, c_void_p
 from typing import Any, Callable, Dict, Optional, Sequence, SupportsIndex, Union
 
 from . import _structs as s
-from ._library import ArgumentError, call, check, flag, lab, quoted, text, texts
-from ._plot import _free
+from ._library import ArgumentError, call, check, flag, free, lab, quoted, text, texts
 
 
 def _owned(pointer: c_void_p) -> str:
@@ -18,7 +17,7 @@ def _owned(pointer: c_void_p) -> str:
     try:
         return ctypes.string_at(pointer).decode()
     finally:
-        _free(pointer)
+        free(pointer)
 
 
 class Datasheet:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a notebook shows of Koksma's results: tables as HTML, curves and points as the library's own SVG, images as PNG.
+"""What a notebook shows of arrays: points as the library's own SVG, images as PNG.
 
 Results have `_repr_html_` or `_repr_svg_`, which notebooks call by themselves. Points and images are plain arrays of NumPy,
 whose display belongs to NumPy: `%load_ext koksma` in a notebook adds pictures for the arrays that look like either.
@@ -7,50 +7,18 @@ whose display belongs to NumPy: `%load_ext koksma` in a notebook adds pictures f
 from __future__ import annotations
 
 import ctypes
-import html
-import math
-from ctypes import POINTER, byref, c_double, c_size_t, c_ubyte
-from typing import Any, Iterable, List, Optional, Sequence, Tuple
+from ctypes import POINTER, byref, c_size_t, c_ubyte
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _structs as s
 from ._compare import as_image, view_image
-from ._library import check, lab
-from ._plot import Picture, _figure, _free, plot
+from ._library import check, free, lab
+from ._picture import plot
 
 MOST_POINTS = 1 << 16  # of an array that is shown as points
 MOST_PIXELS = 1 << 22  # of one that is shown as an image
-
-
-def number(x: Any, digits: int = 5) -> str:
-    """A number as it stands in tables: five digits, nothing for NaN."""
-    return "" if x is None or (isinstance(x, float) and math.isnan(x)) else f"{x:.{digits}g}" if isinstance(x, float) else str(x)
-
-
-def table(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "") -> str:
-    """An HTML table; every text in it is escaped."""
-    def line(cells: Iterable[Any], tag: str) -> str:
-        return "<tr>" + "".join(f"<{tag}>{html.escape(number(c))}</{tag}>" for c in cells) + "</tr>"
-
-    title = f"<caption>{html.escape(caption)}</caption>" if caption else ""
-    return f"<table>{title}<thead>{line(head, 'th')}</thead><tbody>{''.join(line(r, 'td') for r in rows)}</tbody></table>"
-
-
-def chart(x_label: str, y_label: str, curves: Sequence[Tuple[str, npt.ArrayLike, npt.ArrayLike]], level: Optional[float] = None,
-          title: Optional[str] = None) -> Picture:
-    """A chart of curves (label, xs, ys) on linear axes; level: a dashed line."""
-    kept: List[Any] = []
-    drawn = (s.Curve * len(curves))()
-    for i, (label, xs, ys) in enumerate(curves):
-        columns = [np.ascontiguousarray(c, np.float64) for c in (xs, ys)]
-        kept.append(columns)
-        pointers = [c.ctypes.data_as(POINTER(c_double)) for c in columns]
-        drawn[i] = s.Curve(label.encode(), len(columns[0]), *pointers, None, False, False, i)
-    kept.append(drawn)
-    return _figure([[s.Chart(x_label.encode(), y_label.encode(), False, False, drawn, len(curves), level is not None,
-                             level or 0.0)]], title, 0, "light", kept)
 
 
 def png(image: npt.ArrayLike) -> bytes:
@@ -61,7 +29,7 @@ def png(image: npt.ArrayLike) -> bytes:
     try:
         return ctypes.string_at(data, size.value)
     finally:
-        _free(data)
+        free(data)
 
 
 def looks_like_points(array: Any) -> bool:

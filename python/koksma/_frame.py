@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results that are tables, as frames of pandas, which is loaded on first use."""
+"""Results that are tables: as frames of pandas, which is loaded on first use, and as HTML in notebooks."""
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Dict, Mapping, Sequence
+import html
+import math
+from typing import Any, Dict, Iterable, Mapping, Sequence
 
 from ._library import UnsupportedError
 
@@ -33,3 +35,17 @@ def columns_of(rows: Sequence[Any]) -> Dict[str, Any]:
         else:
             columns[field.name] = values
     return columns
+
+
+def number(x: Any, digits: int = 5) -> str:
+    """A number as it stands in tables: five digits, nothing for NaN."""
+    return "" if x is None or (isinstance(x, float) and math.isnan(x)) else f"{x:.{digits}g}" if isinstance(x, float) else str(x)
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "") -> str:
+    """An HTML table; every text in it is escaped."""
+    def line(cells: Iterable[Any], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(number(c))}</{tag}>" for c in cells) + "</tr>"
+
+    title = f"<caption>{html.escape(caption)}</caption>" if caption else ""
+    return f"<table>{title}<thead>{line(head, 'th')}</thead><tbody>{''.join(line(r, 'td') for r in rows)}</tbody></table>"

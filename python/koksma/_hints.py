@@ -204,5 +204,5 @@ def hint_of_values(message: str, function: "Callable[..., Any]", values: Sequenc
     if "," in word and "=" not in word and kind in ("pattern", "measure", "metric"):
         return f"; several are a list: {word.replace(' ', '').split(',')}"
     families = (("pattern", [p.name for p in patterns()]), ("measure", [m.name for m in measures()]), ("scene", scenes()))
-    of = [what for what, names in families if what != kind in ("pattern", "measure", "scene") and word in names]
-    return f"; {word!r} is a {of[0]}" if of else ""
+    is_a = [what for what, names in families if what != kind in ("pattern", "measure", "scene") and word in names]
+    return f"; {word!r} is a {is_a[0]}" if is_a else ""

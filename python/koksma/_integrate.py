@@ -7,16 +7,16 @@ import os
 from contextlib import contextmanager
 from ctypes import POINTER, byref, c_double, c_size_t, c_void_p
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, SupportsIndex, Tuple, Union, overload
+from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, SupportsIndex, Union, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._frame import Framed
+from ._frame import Framed, number, table
 from ._library import (ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, several, sizes_of, spec, text,
                        warn, warn_of_one_set, whole)
-from ._points import Member, PointArray, as_points, canonical, generate, table, view
+from ._points import Member, PointArray, as_points, canonical, generate, members, view
 from ._tolerance import Integral, integrate_to, values_at
 
 Function = Union[str, Callable[[PointArray], npt.ArrayLike]]
@@ -103,8 +103,6 @@ class Integration(Framed):
         return f"{'about ' * self.slope_approximate}{self.slope_low:.3f} to {self.slope_high:.3f}"
 
     def _repr_html_(self) -> str:
-        from ._display import number, table
-
         errors = zip(self.sizes, self.rmse, self.low, self.high, self.approximate, self.gain, self.z)
         slope = "" if math.isnan(self.slope) else f"; slope {self.slope:.3f} ({self._slope_interval()})"
         return table(("n", "rmse", "low", "high", "interval", "gain", "z"),
@@ -145,7 +143,7 @@ def integrands() -> List[Member]:
     >>> "genz-gaussian" in [i.name for i in koksma.integrands()]
     True
     """
-    return table(core().koksma_integrand_at)
+    return members(core().koksma_integrand_at)
 
 
 @contextmanager
@@ -295,7 +293,7 @@ def _each(name: str, numbers: Union[SupportsIndex, Sequence[SupportsIndex]]) -> 
 def integrate(function: Function, pattern: Union[str, npt.ArrayLike], n: Union[SupportsIndex, Sequence[SupportsIndex], None] = None,
               dim: SupportsIndex = 2, *, trials: SupportsIndex = 32, seed: Seed = 0,
               integral: float = math.nan, variance: float = math.nan,
-              threads: SupportsIndex = 0) -> Integration: ...
+              threads: SupportsIndex = 0, tolerance: None = None) -> Integration: ...
 
 
 @overload
@@ -375,8 +373,8 @@ def integrate(function: Function, pattern: Any = None, n: Any = None, dim: Suppo
     >>> found = koksma.integrate(lambda x: numpy.exp(-(x**2).sum(axis=1)), 3, tolerance=1e-6, bounds=[(-1, 1)] * 3)
     >>> found.reached, abs(float(found) - 1.493648265624854**3) <= 1e-6
     (True, True)
-    >>> found = koksma.integrate(lambda x: x[:, 0] * x[:, 1], "sobol:scramble=owen", [64, 256, 1024], integral=1/4)
-    >>> found.slope < -1  # of random points -1/2
+    >>> errors = koksma.integrate(lambda x: x[:, 0] * x[:, 1], "sobol:scramble=owen", [64, 256, 1024], integral=1/4)
+    >>> errors.slope < -1  # of random points -1/2
     True
     """
     if tolerance is not None:

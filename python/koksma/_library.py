@@ -31,6 +31,8 @@ ABI = 0
 _PACE_S = 0.005  # how often a long call runs handlers of signals
 _QUICK_S = 0.01  # nobody wants to stop a call that took no longer when it was made before
 _MOST_QUOTED = 60  # characters of a wrong value in a message
+free = ctypes.CDLL("msvcrt" if os.name == "nt" else None).free  # the library's, by mingw-w64
+free.argtypes = [c_void_p]
 _SPECS: Dict[Tuple[str, str], s.Spec] = {}
 quick: Set[Hashable] = set()  # what was seen to be short: of measures and patterns (text, shape)
 
@@ -473,10 +475,12 @@ def seed_of(seed: Seed, most: int = s.MAX_SEED) -> int:
     """A seed for the library: an int as it is, of None fresh entropy, of what NumPy draws from, a number drawn."""
     if seed is None:
         return secrets.randbits(62) % (most + 1)  # trials behind it fit
+    source: Any = seed
     if hasattr(seed, "__index__"):
-        return whole("seed", seed, 0, most)
+        return whole("seed", source, 0, most)
     if type(seed).__module__.startswith("numpy.random"):
-        source: Any = seed if hasattr(seed, "random_sample") else np.random.default_rng(seed)
+        if not hasattr(seed, "random_sample"):
+            source = np.random.default_rng(source)
         draw = getattr(source, "integers", None) or source.randint  # a Generator, or a RandomState
         return int(draw(0, min(most, np.iinfo(np.int64).max), dtype=np.int64))
     raise TypeError(f"seed must be an int, not {quoted(seed)}")
@@ -616,22 +620,3 @@ def closest(word: str, names: Sequence[str]) -> str:
     at = s.NameAt(lambda _table, i: addressof(kept[i]) if i < len(kept) else None)
     found = core().koksma_closest_name(word.encode(errors="replace").split(b"\0")[0], at, None)
     return os.fsdecode(found) if found else ""
-
-
-def with_hints(function: Any) -> Any:
-    """The function, whose error on an argument that it lacks names the nearest one that it has."""
-    @wraps(function)
-    def called(*values: Any, **named: Any) -> Any:
-        try:
-            return function(*values, **named)
-        except (TypeError, ArgumentError) as error:
-            from ._hints import hint_of_argument, hint_of_values
-
-            found = re.search(r"^.*got an unexpected keyword argument '(\w+)'", str(error))
-            if found and error.__traceback__ is not None and error.__traceback__.tb_next is None:  # not of another call
-                raise TypeError(found[0] + hint_of_argument(found[1], function)) from None
-            more = hint_of_values(str(error), function, values) if type(error) in (TypeError, ArgumentError) else ""
-            if more and more not in str(error):
-                error.args = (str(error).split("; ")[0] + more, *error.args[1:])
-            raise
-    return called

@@ -6,7 +6,7 @@ import math
 import os
 from ctypes import POINTER, byref, c_float, c_int, cast
 from dataclasses import dataclass
-from typing import Any, Callable, Optional, SupportsIndex, Tuple, Union
+from typing import Any, Callable, List, Optional, SupportsIndex, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt

@@ -36,7 +36,7 @@ class Optimum:
         return f"Optimum({self.value:.8g}, {n} points in {dim} dimensions, {self.steps} steps by {self.method})"
 
     def _repr_svg_(self) -> Optional[str]:
-        from ._plot import plot
+        from ._picture import plot
 
         return plot(self.points).svg if self.points.shape[1] > 1 else None
 
@@ -180,7 +180,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
         n = int(first.shape[0])
     else:
         raise ArgumentError("n, the number of points, is missing")
-    dim = (2 if first is None else first.shape[1]) if dim is None else whole("dim", dim, 1, s.MAX_DIM)
+    dim = (2 if first is None else int(first.shape[1])) if dim is None else whole("dim", dim, 1, s.MAX_DIM)
     if first is not None and dim != first.shape[1]:
         raise ArgumentError(f"dim = {dim}, but the points of start have {first.shape[1]}")
     steps = whole("steps", steps, 0, s.MAX_SEED)
@@ -189,7 +189,7 @@ def optimise(measure: Optional[str], n: Optional[SupportsIndex] = None, dim: Opt
     if isinstance(projections, str):
         if projections != "pairs":
             raise ArgumentError(f"projections must be groups of coordinates, such as [(0, 1), (0, 2)], or 'pairs', not {quoted(projections)}")
-        projections = [(k, j) for k in range(min(int(dim), 64)) for j in range(k)]
+        projections = [(k, j) for k in range(min(dim, 64)) for j in range(k)]
     try:
         groups = [{whole("projections", k, 0, 63) for k in u} for u in projections]
     except TypeError:

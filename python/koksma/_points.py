@@ -8,14 +8,15 @@ import weakref
 from ctypes import byref
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Optional, Sequence, SupportsIndex, Tuple, Union, cast, overload
+from typing import Any, Callable, Dict, Iterable, List, Optional, Sequence, SupportsIndex, Tuple, Union, cast, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
+from ._frame import table
 from ._library import (ArgumentError, MalformedError, allow_exec as allowing_exec, call, check, choice, core, flag, kept_spec,
-                       lab, one_of, quick, quoted, Seed, seed_of, spec, text, texts, warn, warn_of_one_set, whole)
+                       one_of, quick, quoted, Seed, seed_of, spec, text, texts, warn, warn_of_one_set, whole)
 
 PointArray = npt.NDArray[np.float64]
 STRATIFIED, LATIN = 1 << 3, 1 << 4  # KOKSMA_CLAIM_STRATIFIED and so on
@@ -151,8 +152,6 @@ class Value(float):
         return f"Value({', '.join(parts)})"
 
     def _repr_html_(self) -> str:
-        from ._display import table
-
         rows: List[Tuple[str, Any]] = [("value", self.value)]
         if not self.exact and self.lower < self.upper:
             rows += [("at least", self.lower), ("at most", self.upper)]
@@ -211,7 +210,7 @@ class Identity:
     names: bool
 
 
-def table(at: Any) -> List[Member]:
+def members(at: Any) -> List[Member]:
     """The members of a table of patterns, measures or integrands, by the function that returns member i."""
     members: List[Member] = []
     while at(len(members)):
@@ -264,7 +263,7 @@ def patterns() -> List[Member]:
     >>> [p.name for p in koksma.patterns() if "maximal" in p.claims]
     ['poisson-disk-maximal']
     """
-    return table(core().koksma_pattern_at)
+    return members(core().koksma_pattern_at)
 
 
 def modifiers() -> List[Modifier]:
@@ -301,7 +300,7 @@ def measures() -> List[Member]:
     >>> koksma.measures()[0].name
     'star'
     """
-    return table(core().koksma_measure_at)
+    return members(core().koksma_measure_at)
 
 
 def view(array: PointArray) -> s.Points:

@@ -147,9 +147,9 @@ class Convergence(Framed):
     plot = draw
 
     def _repr_svg_(self) -> str:
-        from ._plot import plot_convergence
+        from ._picture import convergence_figure
 
-        return plot_convergence(self).svg
+        return convergence_figure([self]).svg
 
 
 def trials(pattern: str, n: SupportsIndex, measure: str = "star", *, dim: SupportsIndex = 2, trials: SupportsIndex = 100,

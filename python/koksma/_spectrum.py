@@ -52,7 +52,7 @@ class Spectrum(Framed):
     plot = draw
 
     def _repr_svg_(self) -> str:
-        from ._display import chart
+        from ._picture import chart
 
         return chart("frequency", "power", [(f"{self.sets} set{'s' * (self.sets != 1)}", self.frequency, self.ring_power)], 1,
                      "Mean power of rings").svg
@@ -180,6 +180,6 @@ class PairCorrelation(Framed):
     plot = draw
 
     def _repr_svg_(self) -> str:
-        from ._display import chart
+        from ._picture import chart
 
         return chart("distance", "pair correlation", [(f"{self.sets} set{'s' * (self.sets != 1)}", self.distance, self.density)], 1).svg

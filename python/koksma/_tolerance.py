@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _structs as s
-from ._frame import Framed, columns_of
-from ._library import ArgumentError, Seed, call, check, core, first_seed, flag, quoted, real, spec, text, warn, whole
+from ._frame import Framed, columns_of, table
+from ._library import ArgumentError, Seed, call, core, first_seed, flag, quoted, real, spec, text, warn, whole
 from ._points import Named, PointArray, canonical, named, numbers, warp_points
 
 #: The digital shift makes random the digits below the 32 of the sequence, whose truncation is a bias of 2^-33.
@@ -102,8 +102,6 @@ class Integral(Framed):
         return f"Integral({self.value:.12g} in [{self.low:.12g}, {self.high:.12g}], {self.points} points in {self.dim} dimensions{missed})"
 
     def _repr_html_(self) -> str:
-        from ._display import table
-
         return table(("n", "points", "value", "low", "high", "error", "interval"),
                      [(p.n, p.points, p.value, p.low, p.high, p.error, p.interval) for p in self.path],
                      f"{self.replicates} {'parts' if self.parts else 'sets'} of {self.pattern}; {'reached' if self.reached else 'not reached'}")
@@ -246,7 +244,8 @@ def integrate_to(opened: Any, function: Any, pattern: Optional[str], n: Optional
             handle = stack.enter_context(opened(function, dim, []))
             of = s.ValuesOf(_of_integrand(handle, whole("threads", threads, 0, s.MAX_INT)))
         elif callable(function):
-            at, volume = _mapped(function, dim, bounds, warp)
+            called: Any = function
+            at, volume = _mapped(called, dim, bounds, warp)
             of = _callback(at, raised)
         else:
             raise TypeError(f"function must be a str or callable, not {quoted(function)}")

@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 
 import koksma
-from koksma import _display
+from koksma import _display, _frame
 
 NOTEBOOKS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "notebooks")
 try:
@@ -45,7 +45,7 @@ class Display(unittest.TestCase):
         self.assertEqual([row[0] for row in rows[1:]], ["mean absolute error", "largest", "rmse", "smape"])
         found = koksma.integrate("exp", "random", [16, 64, 256])
         self.assertEqual([row[0] for row in cells(found._repr_html_())[1:]], ["16", "64", "256"])
-        self.assertEqual(cells(_display.table(["<b>"], [["a & b", float("nan")]])), [["<b>"], ["a & b", ""]])
+        self.assertEqual(cells(_frame.table(["<b>"], [["a & b", float("nan")]])), [["<b>"], ["a & b", ""]])
 
     def test_curves(self):
         sets = [koksma.generate("n-rooks", 64, 2, seed) for seed in range(3)]

@@ -20,7 +20,7 @@ PACKAGE = ROOT / "python" / "koksma"
 # for Mitsuba is made in a function; functools.lru_cache wraps private functions; SciPy, which has no types, has Engine's base.
 NOT_SEEN = r"""koksma\._structs\..*
 koksma\.mitsuba\.KoksmaSampler.*
-koksma\._library\.(_paced|core|lab)
+koksma\._library\.(Seed|_paced|core|lab)
 koksma\._points\.(_evaluate_array|_generate_array|_Memory.*)
 koksma\._signals\._pythons
 koksma\._engine\.Engine
