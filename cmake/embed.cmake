@@ -20,14 +20,23 @@ function(koksma_embed_records file header)
   file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from records.csv; do not edit. */\n#ifdef RECORD\n${rows}#else\nstatic const uint64_t points[] = {\n${points}};\n#endif\n" @ONLY)
 endfunction()
 
-# koksma_embed_numbers(FILE HEADER): each row NAME,NUMBERS of a file as an array of 32-bit numbers.
-function(koksma_embed_numbers file header)
+# koksma_embed_numbers(FILE TYPE HEADER): each row NAME,NUMBERS of a file as an array of a type.
+function(koksma_embed_numbers file type header)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} text)
   string(REGEX REPLACE "#[^\n]*\n" "" text "${text}")
   string(REPLACE " " ",\n" text "${text}")
-  string(REGEX REPLACE "([a-z]+),([^a-z]+)\n" "static const uint32_t \\1[] = {\n\\2};\n" text "${text}")
+  string(REGEX REPLACE "([a-z_]+),([^a-z]+)\n" "static const ${type} \\1[] = {\n\\2};\n" text "${text}")
   file(CONFIGURE OUTPUT ${header} CONTENT "/* Made from rows of numbers; do not edit. */\n${text}" @ONLY)
+endfunction()
+
+# koksma_embed_tables(DATA HEADERS): the tables of the patterns in a folder, as headers in another.
+function(koksma_embed_tables data headers)
+  koksma_embed_records(${data}/records.csv ${headers}/records.inc)
+  koksma_embed_numbers(${data}/every_n.csv uint32_t ${headers}/every_n.inc)
+  koksma_embed_numbers(${data}/lattice_sequence.csv uint32_t ${headers}/lattice_sequence.inc)
+  koksma_embed_numbers(${data}/sobol.csv uint16_t ${headers}/sobol.inc)
+  koksma_embed_numbers(${data}/ternary_quads.csv uint64_t ${headers}/ternary_quads.inc)
 endfunction()
 
 # koksma_embed_folder(HEADER GLOB): a header with the table `embedded_texts[]` of {name, text, size}: every file that

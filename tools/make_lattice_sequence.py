@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""make_lattice_sequence.py DIMENSIONS > src/engine/patterns/lattices/lattice_sequence.inc: the generating vector of lattice-sequence.
+"""make_lattice_sequence.py DIMENSIONS: the row of src/engine/patterns/data/lattice_sequence.csv, the vector of lattice-sequence.
 
 Component by component: z_k is the odd number below 2^19 whose lattices of 2^3, 2^4, .. 2^20 points are all good. The
 error of level m is lattice-rank1's, the mean over i of prod_j (1 + 3/4 B_2({i z_j / 2^m})) less 1; the z with the
@@ -47,9 +47,7 @@ def main():
             product[q] = product[q] * (1 + 0.75 * np.roll(kernel[q], -exponent % len(product[q])))
         print(k, vector[-1], file=sys.stderr)
     assert len(set(vector)) == len(vector)
-    print("/* SPDX-License-Identifier: Apache-2.0 */\n/* Made by tools/make_lattice_sequence.py. */")
-    for at in range(0, len(vector), 12):
-        print(", ".join(map(str, vector[at:at + 12])) + ",")
+    print("z," + " ".join(map(str, vector)))
 
 
 main()

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Makes src/engine/patterns/nets/sobol_groups.inc: direction numbers of Sobol' sequences (sobol:numbers=groups) whose
+ * Makes a row of src/engine/patterns/data/sobol.csv: direction numbers of Sobol' sequences (sobol:numbers=groups) whose
  * consecutive pairs and quadruples are even in all prefixes of 2^m points, m = 4 .. 12. A program of its own, run by
  * hand, some ten minutes; the same bits on every machine:
  *
  *     cc -O3 -std=c11 -ffp-contract=off -Iinclude tools/make_sobol_groups.c build/release/src/libkoksma.a -lm -pthread \
  *         -o /tmp/make_sobol_groups
- *     /tmp/make_sobol_groups > /tmp/groups.inc && mv /tmp/groups.inc src/engine/patterns/nets/sobol_groups.inc
+ *     /tmp/make_sobol_groups
  *
  * Dimension k has the primitive polynomial number k, in the order of Joe & Kuo: by degree, then by value. The initial
  * numbers m_2 .. m_s of four dimensions at a time, 4 g .. 4 g + 3, are searched by threshold accepting, which flips one
@@ -320,25 +320,16 @@ static void search_group(int first, int steps, int refinements)
 int main(int argc, char **argv)
 {
     const int dims = argc > 1 ? atoi(argv[1]) : MOST_DIM, steps = argc > 2 ? atoi(argv[2]) : 8000;
-    int length = 0;
     make_polynomials();
     for (int first = 0; first < dims; first += GROUP) {
         search_group(first, steps, steps / 16);
     }
-    printf(
-        "/* SPDX-License-Identifier: Apache-2.0 */\n"
-        "/* Direction numbers of Sobol' sequences: for each dimension from the 2nd, its primitive polynomial (all\n"
-        "   coefficients, the highest first) and as many initial numbers m_1, m_2, ... as its degree.\n"
-        "   Made by tools/make_sobol_groups.c. */\n");
     for (int k = 1; k < dims; k++) {
-        length += printf("%u,", table[k].polynomial);
+        printf("%s%u", k == 1 ? "groups," : " ", table[k].polynomial);
         for (int i = 0; i < table[k].degree; i++) {
-            length += printf("%u,", table[k].m[i]);
-        }
-        if (length > 90 || k == dims - 1) {
-            length = 0;
-            printf("\n");
+            printf(" %u", table[k].m[i]);
         }
     }
+    printf("\n");
     return 0;
 }

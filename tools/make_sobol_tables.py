@@ -1,62 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes src/engine/patterns/nets/sobol_joe_kuo.inc and sobol_bratley_fox.inc.
-
-Usage: tools/make_sobol_tables.py [FOLDER]   (needs scipy and the GSL library, which hold the published numbers)
+"""make_sobol_tables.py: prints two rows of src/engine/patterns/data/sobol.csv (needs scipy and the GSL library, which
+hold the published numbers).
 
 Joe & Kuo's numbers (2008, new-joe-kuo-6.21201) are read from scipy's copy. Bratley & Fox's (1988, ACM Algorithm 659)
 are read off the points of GSL's generator, and checked to follow from their polynomials.
 """
 import ctypes
 import os
-import sys
 
 import numpy
 import scipy.stats
 
 DIMENSIONS = 1111
-NOTICE = """/* Direction numbers of Sobol' sequences: for each dimension from the 2nd, its primitive polynomial (all coefficients,
-   the highest first) and as many initial numbers m_1, m_2, ... as its degree.
-   Made by tools/make_sobol_tables.py. %s */
-"""
-JOE_KUO = NOTICE % """Source: S. Joe and F. Y. Kuo, Constructing Sobol sequences with better
-   two-dimensional projections, SIAM J. Sci. Comput. 30, 2635-2654 (2008), the set new-joe-kuo-6.21201 as shipped with
-   scipy. The set's licence:
-
-   Copyright (c) 2008, Frances Y. Kuo and Stephen Joe. All rights reserved.
-
-   Redistribution and use in source and binary forms, with or without modification, are permitted provided that the
-   following conditions are met:
-   * Redistributions of source code must retain the above copyright notice, this list of conditions and the following
-     disclaimer.
-   * Redistributions in binary form must reproduce the above copyright notice, this list of conditions and the
-     following disclaimer in the documentation and/or other materials provided with the distribution.
-   * Neither the names of the copyright holders nor the names of the University of New South Wales and the University
-     of Waikato and its contributors may be used to endorse or promote products derived from this software without
-     specific prior written permission.
-
-   THIS SOFTWARE IS PROVIDED BY THE COPYRIGHT HOLDERS "AS IS" AND ANY EXPRESS OR IMPLIED WARRANTIES, INCLUDING, BUT NOT
-   LIMITED TO, THE IMPLIED WARRANTIES OF MERCHANTABILITY AND FITNESS FOR A PARTICULAR PURPOSE ARE DISCLAIMED. IN NO
-   EVENT SHALL THE COPYRIGHT HOLDERS BE LIABLE FOR ANY DIRECT, INDIRECT, INCIDENTAL, SPECIAL, EXEMPLARY, OR
-   CONSEQUENTIAL DAMAGES (INCLUDING, BUT NOT LIMITED TO, PROCUREMENT OF SUBSTITUTE GOODS OR SERVICES; LOSS OF USE, DATA,
-   OR PROFITS; OR BUSINESS INTERRUPTION) HOWEVER CAUSED AND ON ANY THEORY OF LIABILITY, WHETHER IN CONTRACT, STRICT
-   LIABILITY, OR TORT (INCLUDING NEGLIGENCE OR OTHERWISE) ARISING IN ANY WAY OUT OF THE USE OF THIS SOFTWARE, EVEN IF
-   ADVISED OF THE POSSIBILITY OF SUCH DAMAGE."""
-BRATLEY_FOX = NOTICE % """Source: P. Bratley and B. L. Fox, Algorithm 659: Implementing Sobol's
-   quasirandom sequence generator, ACM Trans. Math. Softw. 14, 88-100 (1988)."""
-
-
-def write(path, notice, rows):
-    line = ""
-    with open(path, "w") as out:
-        out.write(notice)
-        for number in (n for row in rows for n in row):
-            piece = "%d," % number
-            if len(line) + len(piece) > 118:
-                out.write(line + "\n")
-                line = ""
-            line += piece
-        out.write(line + "\n")
 
 
 def joe_kuo():
@@ -110,6 +66,5 @@ def primitive(p):
             return x == 1 and order == (1 << degree) - 1
 
 
-folder = sys.argv[1] if len(sys.argv) > 1 else "src/engine/patterns/parts"
-write(os.path.join(folder, "sobol_joe_kuo.inc"), JOE_KUO, joe_kuo())
-write(os.path.join(folder, "sobol_bratley_fox.inc"), BRATLEY_FOX, bratley_fox())
+for name, rows in (("joe_kuo", joe_kuo()), ("bratley_fox", bratley_fox())):
+    print(name + "," + " ".join(str(number) for row in rows for number in row))

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Makes src/engine/patterns/nets/ternary_quads.inc: the matrices N of the pattern ternary-quads, one for each group of
- * four dimensions from the second group on. A program of its own, run by hand, some minutes; the same bits on every
- * machine:
+ * Makes the rows of src/engine/patterns/data/ternary_quads.csv: the matrices N of the pattern ternary-quads, one for each
+ * group of four dimensions from the second group on. A program of its own, run by hand, some minutes; the same bits on
+ * every machine:
  *
  *     cc -O3 -std=c11 tools/make_ternary_quads.c -o /tmp/make_ternary_quads
- *     /tmp/make_ternary_quads > /tmp/quads.inc && mv /tmp/quads.inc src/engine/patterns/nets/ternary_quads.inc
+ *     /tmp/make_ternary_quads
  *
  * Dimension 4 g + b has the generator matrix C_b N_g in base 3: the C_b (src/engine/patterns/ternary_quads.c has their
  * definition) make every group of four even, and N_g, upper triangular with ones on the diagonal, only decides in what
@@ -242,8 +242,8 @@ static trits choose(int first, int c)
    EARLY have fewer starts, because a search among so many rows takes long. */
 static void choose_columns(int dims, int from, int end)
 {
+    char separator = ',';
     for (int first = 0; first < dims; first += QUAD) {
-        int length = 0;
         for (int c = from; c < end; c++) {
             const trits n = choose(first, c);
             uint64_t number = 0;
@@ -251,29 +251,22 @@ static void choose_columns(int dims, int from, int end)
                 number = 3 * number + at(n, r);
             }
             if (first > 0 && c > 0) {
-                length += printf("%" PRIu64 ",", number);
-                if (length > 90 || c == end - 1) {
-                    length = 0;
-                    printf("\n");
-                }
+                printf("%c%" PRIu64, separator, number);
+                separator = ' ';
             }
         }
         fprintf(stderr, "%d\n", first);
     }
+    printf("\n");
 }
 
 int main(int argc, char **argv)
 {
     const int dims = argc > 1 ? atoi(argv[1]) : MOST_DIM;
     make_quad();
-    printf(
-        "/* SPDX-License-Identifier: Apache-2.0 */\n"
-        "/* For each group of four dimensions from the second on: columns 1 to %d of N above its diagonal, each the\n"
-        "   number whose digits in base 3 are its entries, that of row 0 the lowest.\n"
-        "   Made by tools/make_ternary_quads.c. */\n",
-        EARLY - 1);
+    printf("early");
     choose_columns(dims, 0, EARLY);
-    printf("/* Columns %d to %d, chosen after those of all groups. */\n", EARLY, COLUMNS - 1);
+    printf("late");
     choose_columns(dims, EARLY, COLUMNS);
     return 0;
 }

@@ -21,9 +21,7 @@
 #include "patterns/nets/nets.h"
 #include "patterns/patterns.h"
 
-static const uint32_t z[] = {
-#include "patterns/lattices/lattice_sequence.inc"
-};
+#include "patterns/data/lattice_sequence.inc" /* z, made from lattice_sequence.csv */
 
 /* Returns bits 32 to 52 of z_k, as a multiple of 2^32. */
 static uint64_t late_bits(int k)

@@ -38,16 +38,17 @@
 
 enum { BASE = 3, DIGITS = 33, EARLY = 20, QUAD = 4, MOST_DIM = 128, GROUPS = MOST_DIM / QUAD - 1 };
 
-/* Columns 1 to 19 of all groups, then columns 20 to 32, which points from 3^20 on need. */
-static const uint64_t searched[GROUPS * (DIGITS - 1)] = {
-#include "patterns/nets/ternary_quads.inc"
-};
+/* Columns 1 to 19 of all groups (early), and columns 20 to 32, which points from 3^20 on need (late). */
+#include "patterns/data/ternary_quads.inc"
+
+_Static_assert(sizeof early == GROUPS * (EARLY - 1) * sizeof *early &&
+                   sizeof late == GROUPS * (DIGITS - EARLY) * sizeof *late,
+               "all groups have their columns");
 
 /* Returns column c > 0 of N_g above its diagonal, g > 0: its entries are the digits of a number in base 3. */
 static uint64_t searched_column(int g, int c)
 {
-    return c < EARLY ? searched[(g - 1) * (EARLY - 1) + c - 1]
-                     : searched[GROUPS * (EARLY - 1) + (g - 1) * (DIGITS - EARLY) + c - EARLY];
+    return c < EARLY ? early[(g - 1) * (EARLY - 1) + c - 1] : late[(g - 1) * (DIGITS - EARLY) + c - EARLY];
 }
 
 /* Computes the rows of C_3. From s_i, the coefficients of 1/p^q, those of 1/p^(q+1) follow by long division: s'_i =

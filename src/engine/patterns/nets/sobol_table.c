@@ -7,16 +7,7 @@
 
 #include <pthread.h>
 
-static const uint16_t joe_kuo[] = {
-#include "patterns/nets/sobol_joe_kuo.inc"
-};
-static const uint16_t bratley_fox[] = {
-#include "patterns/nets/sobol_bratley_fox.inc"
-};
-
-static const uint16_t groups[] = {
-#include "patterns/nets/sobol_groups.inc"
-};
+#include "patterns/data/sobol.inc" /* joe_kuo, bratley_fox and groups, made from sobol.csv */
 
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static uint32_t joe_kuo_columns[KOKSMA__SOBOL_DIM][32], bratley_fox_columns[40][32], groups_columns[128][32];
