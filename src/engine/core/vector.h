@@ -50,6 +50,28 @@ static inline bool koksma__normalise(double v[3])
     return true;
 }
 
+/* The cofactors of a matrix of 3 x 3 numbers, which are its determinant times the transpose of its inverse; returns
+   the determinant. */
+static inline double koksma__cofactors(const double m[9], double out[9])
+{
+    for (int i = 0; i < 9; i++) {
+        const int r1 = (i / 3 + 1) % 3, r2 = (i / 3 + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
+        out[i] = m[3 * r1 + c1] * m[3 * r2 + c2] - m[3 * r1 + c2] * m[3 * r2 + c1];
+    }
+    return koksma__dot(m, out);
+}
+
+/* Inverts a matrix of 3 x 3 numbers; returns false, and numbers that are not finite, if it has no inverse. */
+static inline bool koksma__invert(const double m[9], double out[9])
+{
+    double c[9];
+    const double determinant = koksma__cofactors(m, c);
+    for (int i = 0; i < 9; i++) {
+        out[i] = c[3 * (i % 3) + i / 3] / determinant;
+    }
+    return isfinite(1 / determinant);
+}
+
 /* ---- The torus and cells ---- */
 
 /* Returns b - a on the torus: the difference modulo 1, in [-1/2, 1/2]. */

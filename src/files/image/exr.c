@@ -15,8 +15,10 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/vector.h"
 #include "image/codec.h"
 
 static const koksma__module module = {
@@ -54,44 +56,19 @@ static size_t count_channels(const unsigned char *value, size_t size, bool *whol
     return n;
 }
 
-/* Whether a value's stated size is that of its type, for the types in the table below. For these the C++ library
-   ignores the stated size: if it differed from the type's, the library would find the next attribute at another
-   position than readers that use the stated size. For all other types the C++ library uses the stated size. */
+/* Whether a value's stated size is that of its type, for the types below, each before its size. For these the C++
+   library ignores the stated size: if it differed, it would find the next attribute elsewhere than other readers do. */
 static bool value_fits(const char *type, size_t size)
 {
-    static const struct {
-        const char *type;
-        size_t size;
-    } known[] = {{"box2i", 16},
-                 {"box2f", 16},
-                 {"chromaticities", 32},
-                 {"compression", 1},
-                 {"deepImageState", 1},
-                 {"double", 8},
-                 {"envmap", 1},
-                 {"float", 4},
-                 {"int", 4},
-                 {"keycode", 28},
-                 {"lineOrder", 1},
-                 {"m33f", 36},
-                 {"m33d", 72},
-                 {"m44f", 64},
-                 {"m44d", 128},
-                 {"rational", 8},
-                 {"tiledesc", 9},
-                 {"timecode", 8},
-                 {"v2i", 8},
-                 {"v2f", 8},
-                 {"v2d", 16},
-                 {"v3i", 12},
-                 {"v3f", 12},
-                 {"v3d", 24}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        if (!strcmp(known[i].type, type)) {
-            return size == known[i].size;
-        }
-    }
-    return true;
+    static const char sizes[] = " box2i 16 box2f 16 chromaticities 32 compression 1 deepImageState 1 double 8 envmap "
+                                "1 float 4 int 4 keycode 28 "
+                                "lineOrder 1 m33f 36 m33d 72 m44f 64 m44d 128 rational 8 tiledesc 9 timecode 8 v2i 8 "
+                                "v2f 8 v2d 16 v3i 12 v3f 12 "
+                                "v3d 24 ";
+    char stated[40];
+    snprintf(stated, sizeof stated, " %.31s ", type);
+    const char *known = strstr(sizes, stated);
+    return !known || strtoul(known + strlen(stated), NULL, 10) == size;
 }
 
 /* What the header of the first part says: the place of its chromaticities, or NULL, and its compression. */
@@ -99,15 +76,6 @@ typedef struct header {
     const unsigned char *chromaticities;
     int compression;
 } header;
-
-static void note_attribute(const char *name, const unsigned char *value, size_t size, header *out)
-{
-    if (!strcmp(name, "chromaticities") && size == 32) {
-        out->chromaticities = value;
-    } else if (!strcmp(name, "compression") && size == 1) {
-        out->compression = *value;
-    }
-}
 
 /* An attribute is name, type, size and value; an empty name ends a header, and an empty header ends the headers of a
    file of several parts (https://openexr.com/en/latest/OpenEXRFileLayout.html). */
@@ -125,8 +93,10 @@ static koksma_status check_header(const unsigned char *bytes, size_t size, heade
         if (fits) {
             attributes++;
             channels += strcmp((const char *)bytes + type, "chlist") ? 0 : count_channels(from, value, &fits);
-            if (first) {
-                note_attribute((const char *)bytes + at, from, value, out);
+            if (first && value == 32 && !strcmp((const char *)bytes + at, "chromaticities")) {
+                out->chromaticities = from;
+            } else if (first && value == 1 && !strcmp((const char *)bytes + at, "compression")) {
+                out->compression = *from;
             }
             at = length + 4 + value;
             first &= at < size && bytes[at];
@@ -144,44 +114,22 @@ static koksma_status check_header(const unsigned char *bytes, size_t size, heade
 
 /* ---- Colours ------------------------------------------------------------------------------------------- */
 
-/* The determinant of the matrix whose columns are a, b and c. */
-static double determinant(const double a[3], const double b[3], const double c[3])
+/* The matrix from linear RGB to XYZ by the chromaticities x, y of red, green, blue and white, and its inverse. The
+   primaries' columns are (x, y, 1 - x - y), which may have y = 0; their lengths follow from the white. */
+static bool to_xyz(const double xy[8], double matrix[9], double inverse[9])
 {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
-           c[0] * (a[1] * b[2] - a[2] * b[1]);
-}
-
-/* Solves a u + b v + c w = d by Cramer's rule; returns false if there is no solution. */
-static bool solve(double columns[3][3], const double d[3], double out[3])
-{
-    const double whole = determinant(columns[0], columns[1], columns[2]);
+    double columns[9], back[9];
+    const double white[3] = {xy[6] / xy[7], 1, (1 - xy[6] - xy[7]) / xy[7]};
     for (int k = 0; k < 3; k++) {
-        out[k] = determinant(k == 0 ? d : columns[0], k == 1 ? d : columns[1], k == 2 ? d : columns[2]) / whole;
+        columns[k] = xy[2 * k];
+        columns[3 + k] = xy[2 * k + 1];
+        columns[6 + k] = 1 - xy[2 * k] - xy[2 * k + 1];
     }
-    return isfinite(out[0]) && isfinite(out[1]) && isfinite(out[2]);
-}
-
-/* The XYZ of red, green and blue (columns) from the chromaticities x, y of red, green, blue and white. The primaries'
-   columns are (x, y, 1 - x - y), which may have y = 0; their lengths follow from the white. */
-static bool to_xyz(const double xy[8], double columns[3][3])
-{
-    double white[3], lengths[3];
-    for (int k = 0; k < 4; k++) {
-        double *to = k < 3 ? columns[k] : white;
-        to[0] = xy[2 * k];
-        to[1] = xy[2 * k + 1];
-        to[2] = 1 - to[0] - to[1];
-    }
-    for (int k = 0; k < 3; k++) {
-        white[k] /= xy[7];
-    }
-    if (!solve(columns, white, lengths)) {
-        return false;
-    }
+    const bool usable = koksma__invert(columns, back);
     for (int k = 0; k < 9; k++) {
-        columns[k / 3][k % 3] *= lengths[k / 3];
+        matrix[k] = columns[k] * koksma__dot(back + 3 * (k % 3), white);
     }
-    return true;
+    return usable && koksma__invert(matrix, inverse);
 }
 
 static double float_at(const unsigned char *b)
@@ -196,8 +144,8 @@ static double float_at(const unsigned char *b)
 static koksma_status convert(const unsigned char *chromaticities, koksma_image *image)
 {
     static const double rec709[8] = {0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
-    double xy[8], from[3][3], to[3][3], matrix[3][3];
-    bool same = true, usable = true;
+    double xy[8], from[9], to[9], unused[9];
+    bool same = true;
     for (int k = 0; k < 8; k++) {
         xy[k] = float_at(chromaticities + 4 * k);
         same &= fabs(xy[k] - rec709[k]) < 1e-4;
@@ -205,16 +153,14 @@ static koksma_status convert(const unsigned char *chromaticities, koksma_image *
     if (same || image->channels != 3) {
         return KOKSMA_OK;
     }
-    usable = to_xyz(xy, from) && to_xyz(rec709, to);
-    for (int k = 0; usable && k < 3; k++) {
-        usable = solve(to, from[k], matrix[k]);
-    }
-    KOKSMA__FAIL_IF(!usable, KOKSMA_MALFORMED, "as an EXR: its chromaticities are those of no colour space");
+    KOKSMA__FAIL_IF(!to_xyz(xy, from, unused) || !to_xyz(rec709, unused, to), KOKSMA_MALFORMED,
+                    "as an EXR: its chromaticities are those of no colour space");
     for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
         float *pixel = image->pixels + 3 * i;
-        const double r = (double)pixel[0], g = (double)pixel[1], b = (double)pixel[2];
+        const double rgb[3] = {(double)pixel[0], (double)pixel[1], (double)pixel[2]};
+        const double xyz[3] = {koksma__dot(from, rgb), koksma__dot(from + 3, rgb), koksma__dot(from + 6, rgb)};
         for (int k = 0; k < 3; k++) {
-            pixel[k] = (float)(matrix[0][k] * r + matrix[1][k] * g + matrix[2][k] * b);
+            pixel[k] = (float)koksma__dot(to + 3 * k, xyz);
         }
     }
     return KOKSMA_OK;
@@ -222,29 +168,15 @@ static koksma_status convert(const unsigned char *chromaticities, koksma_image *
 
 /* ---- Reading and writing -------------------------------------------------------------------------------- */
 
-/* Names a compression that is newer than OpenEXR 3.3, of which the library here does not know the number. */
-static koksma_status fail_compression(int compression)
-{
-    static const char *const names[] = {"HTJ2K256", "HTJ2K32"}; /* 10 and 11, of OpenEXR 3.4 */
-    char name[40] = "of an unknown kind";
-    if (compression < 12) {
-        snprintf(name, sizeof name, "%s", names[compression - 10]);
-    }
-    return koksma__fail(
-        KOKSMA_MALFORMED,
-        "as an EXR: its compression, number %d, is %s, which the OpenEXR library of this build does not "
-        "read; write it with ZIP",
-        compression, name);
-}
-
 static koksma_status read(const unsigned char *bytes, size_t size, koksma__image_part part, koksma_image *out)
 {
     header h = {.compression = 0};
     KOKSMA__TRY(check_header(bytes, size, &h));
     const koksma_status status = koksma__codec_read(&module, bytes, size, out);
-    if (status == KOKSMA_MALFORMED && h.compression >= 10) {
-        return fail_compression(h.compression);
-    }
+    KOKSMA__FAIL_IF(status == KOKSMA_MALFORMED && h.compression >= 10, KOKSMA_MALFORMED,
+                    "as an EXR: its compression, number %d (10 is HTJ2K256, 11 HTJ2K32), is newer than the OpenEXR "
+                    "library of this build; write it with ZIP",
+                    h.compression);
     return status || part == KOKSMA__IMAGE_NUMBERS || !h.chromaticities ? status : convert(h.chromaticities, out);
 }
 

@@ -356,17 +356,6 @@ koksma__pose koksma__pose_of(const double translate[3], const double rotate_deg[
     return p;
 }
 
-/* The cofactors of a matrix of 3 x 3 numbers, which are its determinant times the transpose of its inverse; returns
-   the determinant. */
-static double cofactors(const double m[9], double out[9])
-{
-    for (int i = 0; i < 9; i++) {
-        const int r1 = (i / 3 + 1) % 3, r2 = (i / 3 + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
-        out[i] = m[3 * r1 + c1] * m[3 * r2 + c2] - m[3 * r1 + c2] * m[3 * r2 + c1];
-    }
-    return m[0] * out[0] + m[1] * out[1] + m[2] * out[2];
-}
-
 /* The unit quaternion of a rotation. The largest of its components is found first, so that none is divided by a small
    number (Shepperd 1978). */
 static void quaternion_of(const double m[9], double q[4])
@@ -396,12 +385,12 @@ bool koksma__pose_of_matrix(const double matrix[12], koksma__pose *out)
     for (int i = 0; i < 9; i++) {
         q[i] = m[i] = matrix[i / 3 * 4 + i % 3];
     }
-    const bool mirrors = cofactors(m, c) < 0;
+    const bool mirrors = koksma__cofactors(m, c) < 0;
     for (int i = 0; i < 9; i++) { /* if m mirrors, the orthogonal matrix nearest to -m is a rotation */
         q[i] = mirrors ? -q[i] : q[i];
     }
     for (int round = 0; round < 100 && change > 1e-14; round++) { /* Q <- (Q + transpose of its inverse) / 2 */
-        const double determinant = cofactors(q, c);
+        const double determinant = koksma__cofactors(q, c);
         if (!isnormal(determinant)) {
             return false;
         }
@@ -481,13 +470,22 @@ int koksma__pose_steps(const koksma__pose poses[2])
     return steps < 1 ? 1 : steps > KOKSMA__MAX_STEPS ? KOKSMA__MAX_STEPS : (int)steps;
 }
 
+/* The cofactors of a placement's matrix without its translation; returns the determinant. */
+static double placed_cofactors(const double matrix[12], double out[9])
+{
+    double m[9];
+    for (int i = 0; i < 9; i++) {
+        m[i] = matrix[i / 3 * 4 + i % 3];
+    }
+    return koksma__cofactors(m, out);
+}
+
 void koksma__normal_matrix(const double m[12], double out[9])
 {
     double largest = 0;
     int exponent = 0;
+    placed_cofactors(m, out);
     for (int i = 0; i < 9; i++) {
-        const int r1 = (i / 3 + 1) % 3, r2 = (i / 3 + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
-        out[i] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
         largest = fmax(largest, fabs(out[i]));
     }
     frexp(largest, &exponent);
@@ -498,9 +496,8 @@ void koksma__normal_matrix(const double m[12], double out[9])
 
 bool koksma__matrix_mirrors(const double m[12])
 {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
-               m[2] * (m[4] * m[9] - m[5] * m[8]) <
-           0;
+    double cofactors[9];
+    return placed_cofactors(m, cofactors) < 0;
 }
 
 /* Compares the determinant with the product of the columns' lengths: the ratio is the volume of the parallelepiped

@@ -35,6 +35,7 @@
 
 #include "core/elementary.h"
 #include "core/status.h"
+#include "core/vector.h"
 #include "image/formats.h"
 #include "image/metrics/metrics.h"
 
@@ -47,35 +48,19 @@ enum { MOST_RADIUS = 160, MOST_EXPOSURES = 64 };
 
 /* The matrix from RGB to XYZ for the primaries and the white of sRGB (IEC 61966-2-1), as fractions that are exact for
    its chromaticities. */
-static const double to_xyz[3][3] = {{10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
-                                    {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
-                                    {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382}};
+static const double to_xyz[9] = {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794,
+                                 2613072.0 / 12288897,  8788810.0 / 12288897, 887015.0 / 12288897,
+                                 1425312.0 / 73733382,  8788810.0 / 73733382, 70074185.0 / 73733382};
 
 typedef struct colours {
-    double from_xyz[3][3], white[3]; /* from_xyz: inverse of to_xyz; white: XYZ of RGB (1,1,1) */
+    double from_xyz[9], white[3]; /* from_xyz: inverse of to_xyz; white: XYZ of RGB (1,1,1) */
 } colours;
 
-static void multiply(const double matrix[3][3], const double x[3], double out[3])
+static void multiply(const double matrix[9], const double x[3], double out[3])
 {
     for (int i = 0; i < 3; i++) {
-        out[i] = matrix[i][0] * x[0] + matrix[i][1] * x[1] + matrix[i][2] * x[2];
+        out[i] = koksma__dot(matrix + 3 * i, x);
     }
-}
-
-static void init_colours(colours *c)
-{
-    double determinant = 0;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) { /* cofactors, transposed */
-            const int a = (j + 1) % 3, b = (j + 2) % 3, u = (i + 1) % 3, v = (i + 2) % 3;
-            c->from_xyz[i][j] = to_xyz[a][u] * to_xyz[b][v] - to_xyz[a][v] * to_xyz[b][u];
-        }
-        determinant += to_xyz[0][i] * c->from_xyz[i][0];
-    }
-    for (int i = 0; i < 9; i++) {
-        c->from_xyz[i / 3][i % 3] /= determinant;
-    }
-    multiply(to_xyz, (const double[3]){1, 1, 1}, c->white);
 }
 
 static double clamp(double x)
@@ -259,7 +244,8 @@ static koksma_status flip_init(flip *f, double ppd, int width, int height)
         *parts[i] = at;
         at += i < 3 ? 3 * f->n : f->n;
     }
-    init_colours(&f->colours);
+    koksma__invert(to_xyz, f->colours.from_xyz);
+    multiply(to_xyz, (const double[3]){1, 1, 1}, f->colours.white);
     init_filters(f, ppd);
     rgb_to_lab(&f->colours, green, lab[0]);
     rgb_to_lab(&f->colours, blue, lab[1]);
