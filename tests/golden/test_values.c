@@ -114,7 +114,7 @@ static koksma_points points_of(const char *text)
     if (*text == '[') {
         return listed_points(text);
     }
-    if (!strstr(text, ".txt")) {
+    if (!strstr(text, ".npy")) {
         return generated_points(text, 0);
     }
     snprintf(path, sizeof path, "%s/golden/%s", KOKSMA_TESTS, text);
