@@ -12,11 +12,8 @@ extern const koksma__batch_table koksma__batch_table_ref, koksma__batch_table_ba
 extern const koksma__batch_table koksma__batch_table_avx2, koksma__batch_table_avx512;
 #endif
 
-const koksma__batch_table *koksma__batch_find(const char *isa)
+static const koksma__batch_table *table_of(const char *isa)
 {
-    if (!koksma__kernels_find(isa)) {
-        return NULL;
-    }
 #ifdef KOKSMA_X86_KERNELS
     if (!strcmp(isa, "avx2")) {
         return &koksma__batch_table_avx2;
@@ -28,7 +25,12 @@ const koksma__batch_table *koksma__batch_find(const char *isa)
     return strcmp(isa, "ref") ? &koksma__batch_table_baseline : &koksma__batch_table_ref;
 }
 
-const koksma__batch_table *koksma__batch(void)
+const koksma__batch_table *koksma__batch_find(const char *isa)
 {
-    return koksma__batch_find(koksma__kernels()->isa);
+    return koksma__kernels_find(isa) ? table_of(isa) : NULL;
+}
+
+const koksma__batch_table *koksma__batch(void) /* without a look at the processor, which a virtual machine makes slow */
+{
+    return table_of(koksma__kernels()->isa);
 }
