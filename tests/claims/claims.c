@@ -341,49 +341,42 @@ void claim_INDEPENDENT(const koksma_spec *spec, const koksma_points *points, uin
     }
 }
 
+/* Fails unless coordinates 0 .. count - 1, count .. 2 count - 1, ... are nets in base b: of all points or, with `prefixes`,
+   of the first b^m for every m. */
+static void check_projections(const koksma_spec *spec, const koksma_points *points, int count, size_t b,
+                              bool prefixes)
+{
+    for (int k = 0; k + count <= points->dim; k += count) {
+        koksma_points group = projection_of(points, k, count);
+        for (size_t n = 1; n <= group.n; n *= b) {
+            if ((prefixes || n == group.n) && !is_net_in_base(&group, n, b)) {
+                fail_claim(spec, points, "coordinates %d to %d of the first %zu are not a (0,m,%d)-net in base %zu",
+                           k, k + count - 1, n, count, b);
+            }
+        }
+        koksma_points_fini(&group);
+    }
+}
+
 /* pairs: n = 2^m: coordinates 2k and 2k + 1 are a (0,m,2)-net in base 2. */
 void claim_PAIRS(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    for (int k = 0; k + 1 < points->dim && !(points->n & (points->n - 1)); k += 2) {
-        koksma_points pair = projection_of(points, k, 2);
-        if (!is_net2_block(&pair, 0, pair.n)) {
-            fail_claim(spec, points, "coordinates %d and %d are not a (0,m,2)-net in base 2", k, k + 1);
-        }
-        koksma_points_fini(&pair);
-    }
+    check_projections(spec, points, 2, 2, false);
 }
 
 /* quadruples: the first 4^m points: coordinates 4k to 4k + 3 are a (0,m,4)-net in base 4. */
 void claim_QUADRUPLES(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    for (int k = 0; k + 3 < points->dim; k += 4) {
-        koksma_points four = projection_of(points, k, 4);
-        for (size_t n = 1; n <= four.n; n *= 4) {
-            if (!is_net_in_base(&four, n, 4)) {
-                fail_claim(spec, points, "coordinates %d to %d of the first %zu are not a (0,m,4)-net in base 4", k,
-                           k + 3, n);
-            }
-        }
-        koksma_points_fini(&four);
-    }
+    check_projections(spec, points, 4, 4, true);
 }
 
 /* pairs-3: the first 3^m points: coordinates 2k and 2k + 1 are a (0,m,2)-net in base 3. */
 void claim_PAIRS_3(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    for (int k = 0; k + 1 < points->dim; k += 2) {
-        koksma_points pair = projection_of(points, k, 2);
-        for (size_t n = 1; n <= pair.n; n *= 3) {
-            if (!is_net_in_base(&pair, n, 3)) {
-                fail_claim(spec, points, "coordinates %d and %d of the first %zu are not a (0,m,2)-net in base 3", k,
-                           k + 1, n);
-            }
-        }
-        koksma_points_fini(&pair);
-    }
+    check_projections(spec, points, 2, 3, true);
 }
 
 /* quadruples-3: the first 3^m points: coordinates 4k to 4k + 3 are a (1,m,4)-net in base 3: every product of four

@@ -3,43 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "patterns/spacing/spacing.h"
+#include "pattern_sets.h"
 #include "sets.h"
-#include "test.h"
-
-/* The smallest, and the mean, distance to the nearest other point, in units of the densest packing's. 2D. */
-static void nearest(const double *xs, size_t n, double *least, double *mean)
-{
-    const double densest = koksma__packing_distance(n, 2, true);
-    const long side = n < 64 ? 1 : (long)sqrt((double)n / 4);
-    long *first = malloc(((size_t)(side * side) + n) * sizeof *first), *next = first + side * side;
-    for (long c = 0; c < side * side; c++) {
-        first[c] = -1;
-    }
-    for (size_t i = 0; i < n; i++) {
-        const long c = (long)(xs[2 * i + 1] * (double)side) * side + (long)(xs[2 * i] * (double)side);
-        next[i] = first[c];
-        first[c] = (long)i;
-    }
-    *least = INFINITY;
-    *mean = 0;
-    for (size_t i = 0; i < n; i++) {
-        const long cx = (long)(xs[2 * i] * (double)side), cy = (long)(xs[2 * i + 1] * (double)side);
-        double best = INFINITY;
-        for (long v = -1; v <= 1; v++) {
-            for (long u = -1; u <= 1; u++) {
-                for (long j = first[(cy + v + side) % side * side + (cx + u + side) % side]; j >= 0; j = next[j]) {
-                    if (j != (long)i) {
-                        best = fmin(best, sets_torus_distance2(xs + 2 * i, xs + 2 * j, 2));
-                    }
-                }
-            }
-        }
-        *least = fmin(*least, sqrt(best) / densest);
-        *mean += sqrt(best) / densest / (double)n;
-    }
-    free(first);
-}
 
 /* Mean relative radius of SETS sets of 1,024 points in its band; each blue-noise pattern is in the table. */
 TEST_CASE(relative_radii_are_those_of_the_table)
@@ -70,12 +35,10 @@ TEST_CASE(relative_radii_are_those_of_the_table)
         assert_that(found, "%s claims a blue-noise distance and is not in this table", p->name);
     }
     for (size_t r = 0; r < ROWS; r++) {
-        double sum = 0, mean;
+        double sum = 0;
         for (uint64_t seed = 0; seed < SETS; seed++) {
-            double rho;
             koksma_points points = test_points(rows[r].spec, 1024, 2, seed);
-            nearest(points.xs, 1024, &rho, &mean);
-            sum += rho / SETS;
+            sum += relative_radius(&points) / SETS;
             koksma_points_fini(&points);
         }
         assert_that(sum >= rows[r].low && sum <= rows[r].high, "%s: relative radius %.4f, not %g to %g", rows[r].spec,
@@ -176,13 +139,13 @@ TEST_CASE(limited_weights_keep_points_apart)
     static double kept[2 * N];
     const double d_max = koksma__elimination_radius(N, 2), limit = koksma__elimination_limit(N, ALL, 2);
     koksma_points points = test_points("random", ALL, 2, 3);
-    double rho[2], mean;
+    double rho[2];
     for (int limited = 0; limited < 2; limited++) {
         assert_ok(koksma__eliminate(ALL, 2, points.xs, N, d_max, limited ? d_max * limit : 0, NULL, order));
         for (size_t i = 0; i < N; i++) {
             memcpy(kept + 2 * i, points.xs + 2 * (size_t)order[i], 2 * sizeof *kept);
         }
-        nearest(kept, N, &rho[limited], &mean);
+        rho[limited] = relative_radius(&(koksma_points){N, 2, kept});
     }
     koksma_points_fini(&points);
     assert_near(rho[0], 0.634, 0.012); /* 0.633 by an independent program without the limit, 0.698 with it */
@@ -193,49 +156,17 @@ TEST_CASE(limited_weights_keep_points_apart)
    the same sequence, and more than `length` points are refused. */
 TEST_CASE(prefixes_of_progressive_elimination)
 {
-    const koksma_points ordered = test_points("progressive-elimination", 1024, 2, 1);
-    const koksma_points drawn = test_points("sample-elimination", 1024, 2, 1);
+    koksma_points ordered = test_points("progressive-elimination", 1024, 2, 1);
+    koksma_points drawn = test_points("sample-elimination", 1024, 2, 1);
     for (size_t n = 64; n < 1024; n = n * 3 / 2) {
-        double rho, mean, rho_drawn;
-        nearest(ordered.xs, n, &rho, &mean);
-        nearest(drawn.xs, n, &rho_drawn, &mean);
+        const double rho = relative_radius(&(koksma_points){n, 2, ordered.xs});
+        const double rho_drawn = relative_radius(&(koksma_points){n, 2, drawn.xs});
         assert_that(rho > 0.57 && rho > rho_drawn + 0.05,
                     "%zu of 1024 points: relative radius %.3f ordered, %.3f as drawn", n, rho, rho_drawn);
     }
-    koksma_spec spec;
-    koksma_points more;
-    assert_ok(koksma_pattern_spec("progressive-elimination:length=100", &spec));
-    assert_ok(koksma_points_init(&more, 101, 2));
-    assert_int_equal(koksma_generate(&spec, 0, NULL, &more), KOKSMA_N);
-    koksma_points_fini(&more);
-    koksma_points a = ordered, b = drawn;
-    koksma_points_fini(&a);
-    koksma_points_fini(&b);
-}
-
-/* Mean power over frequencies 0 < |k| < 0.75 sqrt n. */
-static double low_power(const koksma_points *points)
-{
-    const double limit = 0.75 * 0.75 * (double)points->n;
-    const int most = (int)sqrt(limit);
-    double sum = 0;
-    int count = 0;
-    for (int u = 0; u <= most; u++) {
-        for (int v = u ? -most : 1; v <= most; v++) {
-            double c = 0, s = 0;
-            if (u * u + v * v >= limit) {
-                continue;
-            }
-            for (size_t i = 0; i < points->n; i++) {
-                const double angle = 2 * M_PI * (u * points->xs[2 * i] + v * points->xs[2 * i + 1]);
-                c += cos(angle);
-                s += sin(angle);
-            }
-            sum += (c * c + s * s) / (double)points->n;
-            count++;
-        }
-    }
-    return sum / count;
+    assert_int_equal(status_of("progressive-elimination:length=100", 101, 2), KOKSMA_N);
+    koksma_points_fini(&ordered);
+    koksma_points_fini(&drawn);
 }
 
 /* By its criterion the descent leaves what 2,000 steps without it used to leave: a sixth of what 400 did. */
@@ -243,7 +174,7 @@ TEST_CASE(gaussian_blue_noise_has_converged)
 {
     koksma_points done = test_points("gaussian-blue-noise", 1024, 2, 0);
     koksma_points early = test_points("gaussian-blue-noise:steps=128", 1024, 2, 0);
-    const double converged = low_power(&done), before = low_power(&early);
+    const double converged = power_within(&done, 24), before = power_within(&early, 24); /* .75 sqrt n */
     assert_that(converged < 0.0025 && converged > 1e-5 && before > 10 * converged,
                 "power below 0.75 sqrt n: %.5f, after 128 steps %.5f", converged, before);
     koksma_points_fini(&done);

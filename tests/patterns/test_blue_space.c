@@ -3,39 +3,29 @@
    by their definition, radial means of the power. */
 #include <string.h>
 
+#include "pattern_sets.h"
 #include "patterns/darts/darts.h"
-#include "patterns/spacing/spacing.h"
 #include "sets.h"
-#include "test.h"
 
-static double nearest_to(const koksma_points *p, const double *x, size_t but)
+static double nearest_to(const koksma_points *p, const double *x)
 {
     double best = INFINITY;
     for (size_t i = 0; i < p->n; i++) {
-        best = i == but ? best : fmin(best, sets_torus_distance2(p->xs + i * (size_t)p->dim, x, p->dim));
+        best = fmin(best, sets_torus_distance2(p->xs + i * (size_t)p->dim, x, p->dim));
     }
     return sqrt(best);
-}
-
-static double smallest(const koksma_points *p)
-{
-    double best = INFINITY;
-    for (size_t i = 0; i < p->n; i++) {
-        best = fmin(best, nearest_to(p, p->xs + i * (size_t)p->dim, i));
-    }
-    return best;
 }
 
 /* No two points are closer than d, and no random place is further than d from all. */
 static void assert_maximal(const koksma_points *p, double d)
 {
-    assert_true(smallest(p) >= d * (1 - 1e-12));
+    assert_true(smallest_distance(p, true) >= d * (1 - 1e-12));
     for (uint64_t i = 0; i < test_repeats(5000, 500); i++) {
         double x[6];
         for (uint64_t k = 0; k < 6; k++) {
             x[k] = sets_unit(17, 6 * i + k);
         }
-        assert_true(nearest_to(p, x, SIZE_MAX) <= d * (1 + 1e-9));
+        assert_true(nearest_to(p, x) <= d * (1 + 1e-9));
     }
 }
 
@@ -84,7 +74,7 @@ TEST_CASE(sets_by_number_are_maximal)
              c++) {
             koksma_points p = test_points("poisson-disk-maximal", counts[c], dim, 3);
             if (counts[c] > 1) {
-                assert_maximal(&p, smallest(&p));
+                assert_maximal(&p, smallest_distance(&p, true));
             }
             koksma_points_fini(&p);
         }
@@ -132,30 +122,6 @@ TEST_CASE(forces_are_sums_over_images)
     }
 }
 
-/* The mean of |sum_j exp(-2 pi i k.x_j)|^2 / n over all k != 0 with |k| < radius, in 3D. */
-static double power_within(const koksma_points *p, double radius)
-{
-    const int most = (int)radius;
-    double sum = 0, count = 0;
-    for (int a = 0; a <= most; a++) { /* one of k and -k, and both where a is 0 */
-        for (int b = -most; b <= most; b++) {
-            for (int c = -most; c <= most; c++) {
-                if ((a || b || c) && a * a + b * b + c * c < radius * radius) {
-                    double re = 0, im = 0;
-                    for (size_t j = 0; j < p->n; j++) {
-                        const double *x = p->xs + 3 * j, phase = 2 * M_PI * (a * x[0] + b * x[1] + c * x[2]);
-                        re += cos(phase);
-                        im += sin(phase);
-                    }
-                    sum += (re * re + im * im) / (double)p->n * (a ? 2 : 1);
-                    count += a ? 2 : 1;
-                }
-            }
-        }
-    }
-    return sum / count;
-}
-
 /* Independent points have a power of 1; docs/findings/blue-noise.md has the means of more sets. */
 TEST_CASE(low_frequencies_are_weak_in_space)
 {
@@ -195,7 +161,7 @@ TEST_CASE(relative_radii_in_space)
                 {"poisson-disk-maximal", 0.79, 0.82}};
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         koksma_points p = test_points(rows[r].spec, 1000, 3, 2);
-        const double rho = smallest(&p) / cbrt(sqrt(2) / 1000);
+        const double rho = relative_radius(&p);
         assert_near(cbrt(sqrt(2) / 1000), koksma__elimination_radius(1000, 3), 1e-12);
         assert_that(rho >= rows[r].low && rho <= rows[r].high, "%s: relative radius %.3f", rows[r].spec, rho);
         koksma_points_fini(&p);
@@ -208,7 +174,7 @@ static double mean_smallest(const char *spec, size_t n, int dim, uint64_t sets)
     double sum = 0;
     for (uint64_t seed = 0; seed < sets; seed++) {
         koksma_points p = test_points(spec, n, dim, seed);
-        sum += smallest(&p) / (double)sets;
+        sum += smallest_distance(&p, true) / (double)sets;
         koksma_points_fini(&p);
     }
     return sum;
@@ -239,19 +205,13 @@ TEST_CASE(blue_noise_keeps_apart_in_all_dimensions)
 }
 
 /* Every prefix of a progressive order is blue noise of its number (Yuksel 2015): in the plane his program has relative
-   radii of .63 to .65 for eighths, quarters and halves. Spheres of the densest known packings (fcc, D4, D5, E6), n a unit
-   of volume, have the radius (filled / (ball n))^(1/dim), ball the volume of the unit ball. Random points have .3 and
-   less. */
+   radii of .63 to .65 for eighths, quarters and halves. Random points have .3 and less. */
 TEST_CASE(prefixes_are_blue_in_space)
 {
-    static const double ball[] = {4.18879020478639, 4.93480220054468, 5.26378901391432, 5.16771278004997};
-    static const double filled[] = {0.740480489693061, 0.616850275068085, 0.465257613309259, 0.372947545582064};
     for (int dim = 3; dim <= 6; dim++) {
         koksma_points all = test_points("progressive-elimination:length=512", 512, dim, 1);
         for (size_t n = 64; n <= 512; n *= 2) {
-            const koksma_points prefix = {.n = n, .dim = dim, .xs = all.xs};
-            const double radius = pow(filled[dim - 3] / (ball[dim - 3] * (double)n), 1.0 / dim);
-            const double rho = smallest(&prefix) / (2 * radius);
+            const double rho = relative_radius(&(koksma_points){n, dim, all.xs});
             assert_that(rho > 0.6 && rho < 0.75, "%d dimensions, first %zu of 512: relative radius %.3f", dim, n,
                         rho);
         }

@@ -19,23 +19,32 @@ static double kernel(size_t numerator, size_t n)
     return x * x - x + 1.0 / 6;
 }
 
-/* P_2: the mean of the products, less 1, with the weights gamma = weight / 2 pi^2; i and n - i have the same. */
-static double p2(size_t n, const size_t *z, int dim, double weight)
+/* P_2 of the first d coordinates, for each d up to `dim`: the mean of the products, less 1, with the weights gamma = weight
+   / 2 pi^2; i and n - i have the same. */
+static void p2_of_prefixes(size_t n, const size_t *z, int dim, double weight, double *errors)
 {
     size_t at[MAX_DIM] = {0};
-    double sum = 0, lost = 0;
+    double lost[MAX_DIM] = {0};
+    memset(errors, 0, (size_t)(dim + 1) * sizeof *errors);
     for (size_t i = 0; 2 * i <= n; i++) {
         double product = 1;
         for (int k = 0; k < dim; k++) {
             product *= 1 + weight * kernel(at[k], n);
             at[k] += z[k] % n;
             at[k] -= at[k] >= n ? n : 0;
+            const double term = (i == 0 || 2 * i == n ? 1 : 2) * (product - 1) / (double)n - lost[k];
+            const double total = errors[k + 1] + term;
+            lost[k] = total - errors[k + 1] - term;
+            errors[k + 1] = total;
         }
-        const double term = (i == 0 || 2 * i == n ? 1 : 2) * (product - 1) - lost, total = sum + term;
-        lost = total - sum - term;
-        sum = total;
     }
-    return sum / (double)n;
+}
+
+static double p2(size_t n, const size_t *z, int dim, double weight)
+{
+    double errors[MAX_DIM + 1];
+    p2_of_prefixes(n, z, dim, weight, errors);
+    return errors[dim];
 }
 
 /* P_2 from the dual lattice: the sum over all h other than 0 with h z = 0 modulo n of the product over the h_k that
@@ -249,46 +258,20 @@ TEST_CASE(search_is_no_worse_than_others)
     }
 }
 
-/* P_2 of the first d coordinates, for each d up to `dim`. */
-static void p2_of_prefixes(size_t n, const size_t *z, int dim, double *errors)
-{
-    size_t at[MAX_DIM] = {0};
-    double lost[MAX_DIM] = {0};
-    memset(errors, 0, (size_t)(dim + 1) * sizeof *errors);
-    for (size_t i = 0; 2 * i <= n; i++) {
-        double product = 1;
-        for (int k = 0; k < dim; k++) {
-            product *= 1 + WEIGHT * kernel(at[k], n);
-            at[k] += z[k];
-            at[k] -= at[k] >= n ? n : 0;
-            const double term = (i == 0 || 2 * i == n ? 1 : 2) * (product - 1) - lost[k];
-            const double total = errors[k + 1] + term;
-            lost[k] = total - errors[k + 1] - term;
-            errors[k + 1] = total;
-        }
-    }
-    for (int d = 1; d <= dim; d++) {
-        errors[d] /= (double)n;
-    }
-}
-
 /* What it costs to be good for all powers of two at once, for each of them and each dimension that
    docs/findings/lattices.md names: the largest ratio is 1.53 as stated there, no more and no less. Cools, Kuo & Nuyens
    2006 report worst-case errors, roots of P_2, of at most 1.6 times those of lattices made for one n. */
 TEST_CASE(embedded_lattices_cost_little)
 {
     enum { DIM = 10 };
-    size_t sequence[DIM], z[DIM], own[DIM];
+    size_t sequence[DIM], own[DIM];
     double embedded[DIM + 1], single[DIM + 1], largest = 0;
     lattices_sequence_multipliers(DIM, sequence);
     for (int bits = 4; bits <= MOST_BITS; bits++) {
         const size_t n = (size_t)1 << bits;
-        for (int k = 0; k < DIM; k++) {
-            z[k] = sequence[k] % n;
-        }
         lattices_multipliers("lattice-rank1", n, DIM, own);
-        p2_of_prefixes(n, z, DIM, embedded);
-        p2_of_prefixes(n, own, DIM, single);
+        p2_of_prefixes(n, sequence, DIM, WEIGHT, embedded);
+        p2_of_prefixes(n, own, DIM, WEIGHT, single);
         for (int d = 2; d <= DIM; d++) {
             const double ratio = sqrt(embedded[d] / single[d]);
             largest = fmax(largest, ratio);

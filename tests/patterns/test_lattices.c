@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "lattices.h"
-#include "test.h"
+#include "pattern_sets.h"
 
 enum { MAX_DIM = 256 };
 
@@ -32,33 +32,6 @@ static long double error_of(size_t n, const size_t *z, int dim)
         sum += product;
     }
     return sum;
-}
-
-/* The least error that a coordinate k can bring. */
-static long double least_error(size_t n, const size_t *z, int k)
-{
-    size_t other[8];
-    long double least = HUGE_VALL;
-    memcpy(other, z, (size_t)k * sizeof *z);
-    for (other[k] = 1; other[k] < n; other[k]++) {
-        if (lattices_common_divisor(other[k], n) == 1) {
-            least = fminl(least, error_of(n, other, k + 1));
-        }
-    }
-    return least;
-}
-
-TEST_CASE(components_are_the_best)
-{
-    for (size_t n = 5; n <= 80; n += n < 40 ? 1 : 5) {
-        size_t z[8];
-        lattices_multipliers("lattice-rank1", n, 8, z);
-        assert_int_equal(z[0], 1);
-        for (int k = 1; k < 8; k++) {
-            assert_int_equal(lattices_common_divisor(z[k], n), 1);
-            assert_near((double)error_of(n, z, k + 1), (double)least_error(n, z, k), 1e-13 * (double)n);
-        }
-    }
 }
 
 /* In 256 dimensions the origin's term is 10^13, and all others together about n. */
@@ -159,109 +132,59 @@ TEST_CASE(vectors_of_specs)
     static const char *const wrong[] = {":", "1:", "1::2", "x", "1:-2", "1: 2", "1;2", "4503599627370496"};
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
         char text[64];
-        koksma_spec spec;
         snprintf(text, sizeof text, "lattice-vector:%s", wrong[w]);
-        assert_ok(koksma_pattern_spec(text, &spec));
-        assert_ok(koksma_points_init(&points, 5, 1));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
-        koksma_points_fini(&points);
+        assert_int_equal(status_of(text, 5, 1), KOKSMA_ARGUMENT);
     }
-    koksma_spec spec;
-    assert_ok(koksma_pattern_spec("lattice-vector:1:5", &spec));
-    assert_ok(koksma_points_init(&points, 5, 3));
-    assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_DIM);
-    koksma_points_fini(&points);
+    assert_int_equal(status_of("lattice-vector:1:5", 5, 3), KOKSMA_DIM);
 }
 
-/* error_of with the products of up to `order` factors alone: elementary symmetric polynomials. */
-static long double error_of_order(size_t n, const size_t *z, int dim, int order)
-{
-    long double sum = 0;
-    for (size_t i = 1; i < n; i++) {
-        long double e[9] = {1};
-        for (int k = 0; k < dim; k++) {
-            const long double x = (long double)(i * z[k] % n) / (long double)n, term = 0.75L * (x * x - x + 1.0L / 6);
-            for (int l = order; l > 0; l--) {
-                e[l] += term * e[l - 1];
-            }
-        }
-        for (int l = 0; l <= order; l++) {
-            sum += e[l];
-        }
-    }
-    return sum;
-}
-
-TEST_CASE(components_of_an_order_are_the_best)
-{
-    static const size_t counts[] = {5, 16, 31, 64, 67, 80, 101};
-    for (int order = 2; order <= 3; order++) {
-        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
-            const size_t n = counts[c];
-            size_t z[7], other[7];
-            lattices_multipliers(order == 2 ? "lattice-rank1:order=2" : "lattice-rank1:order=3", n, 7, z);
-            for (int k = 1; k < 7; k++) {
-                long double least = HUGE_VALL;
-                memcpy(other, z, sizeof z);
-                for (other[k] = 1; other[k] < n; other[k]++) {
-                    least = lattices_common_divisor(other[k], n) == 1
-                                ? fminl(least, error_of_order(n, other, k + 1, order))
-                                : least;
-                }
-                assert_near((double)error_of_order(n, z, k + 1, order), (double)least, 1e-13 * (double)n);
-            }
-        }
-    }
-    size_t all[5], limited[5];
-    lattices_multipliers("lattice-rank1", 1021, 5, all);
-    lattices_multipliers("lattice-rank1:order=8", 1021, 5, limited);
-    assert_memory_equal(all, limited, sizeof all);
-}
-
-/* n P_2 from its definition: the sum over all sets of coordinates u, of which weights[|u|] is the weight, and over i >
-   0, of the product over k in u of 2 pi^2 B_2({i z_k / n}). */
+/* n P_2 from its definition: the sum over i > 0 of the elementary symmetric polynomials of 2 pi^2 B_2({i z_k / n}) up to
+   degree `dim`, that of degree l times weights[l]. */
 static long double error_of_weights(size_t n, const size_t *z, int dim, const double weights[9])
 {
     const long double pi = acosl(-1);
     long double sum = 0;
-    for (unsigned u = 1; u < 1u << dim; u++) {
-        int members = 0;
-        for (unsigned bits = u; bits; bits &= bits - 1) {
-            members++;
-        }
-        for (size_t i = 1; i < n && weights[members] > 0; i++) {
-            long double product = weights[members];
-            for (int k = 0; k < dim; k++) {
-                const long double x = (long double)(i * z[k] % n) / (long double)n;
-                product *= u >> k & 1 ? 2 * pi * pi * (x * x - x + 1.0L / 6) : 1;
+    for (size_t i = 1; i < n; i++) {
+        long double e[9] = {1};
+        for (int k = 0; k < dim; k++) {
+            const long double x = (long double)(i * z[k] % n) / (long double)n;
+            for (int l = k + 1; l > 0; l--) {
+                e[l] += 2 * pi * pi * (x * x - x + 1.0L / 6) * e[l - 1];
             }
-            sum += product;
+        }
+        for (int l = 1; l <= dim; l++) {
+            sum += weights[l] * e[l];
         }
     }
     return sum;
 }
 
-/* Each component is the best of all, with the weights of Cools, Kuo & Nuyens 2006 by order, as LatNet Builder writes them
-   (order-dependent:0:1,0.1,0.01): falling, equal, rising, and some 0. */
-TEST_CASE(components_of_weights_are_the_best)
+/* Each component is the best of all: with the default weights, the powers of 3 / (8 pi^2), of all orders or of the first,
+   and with those of Cools, Kuo & Nuyens 2006 by order, as LatNet Builder writes them (order-dependent:0:1,0.1,0.01):
+   falling, equal, rising, and some 0. */
+TEST_CASE(components_are_the_best)
 {
-    enum { DIM = 5 };
+    enum { DIM = 7 };
+    static const double a = 0.0379954438, b = a * a;
     static const struct {
         const char *spec;
         double weights[9]; /* [l]: of projections of l coordinates */
-    } cases[] = {{"lattice-rank1:order=3,gamma2=0.1,gamma3=0.01", {0, 1, 0.1, 0.01}},
+    } cases[] = {{"lattice-rank1", {0, 1, a, b, a * b, b * b, a * b * b, b * b * b}},
+                 {"lattice-rank1:order=2", {0, 1, a}},
+                 {"lattice-rank1:order=3", {0, 1, a, b}},
+                 {"lattice-rank1:order=3,gamma2=0.1,gamma3=0.01", {0, 1, 0.1, 0.01}},
                  {"lattice-rank1:order=4,gamma2=1,gamma3=1,gamma4=1", {0, 1, 1, 1, 1}},
                  {"lattice-rank1:order=2,gamma2=7.5", {0, 1, 7.5}},
                  {"lattice-rank1:order=3,gamma2=0.2,gamma3=5", {0, 1, 0.2, 5}},
                  {"lattice-rank1:order=4,gamma2=0.3,gamma3=0,gamma4=2", {0, 1, 0.3, 0, 2}}};
-    static const size_t counts[] = {16, 31, 60, 67, 101};
     for (size_t t = 0; t < sizeof cases / sizeof *cases; t++) {
-        for (size_t c = 0; c < test_repeats(sizeof counts / sizeof *counts, 4); c++) {
-            const size_t n = counts[c];
+        for (size_t n = 5; n <= (t ? test_repeats(101, 64) : 80); n += t == 0 && n < 40 ? 1 : n < 60 ? 11 : 7) {
             size_t z[DIM], other[DIM];
             lattices_multipliers(cases[t].spec, n, DIM, z);
+            assert_int_equal(z[0], 1);
             for (int k = 1; k < DIM; k++) {
                 long double least = HUGE_VALL;
+                assert_int_equal(lattices_common_divisor(z[k], n), 1);
                 memcpy(other, z, sizeof z);
                 for (other[k] = 1; other[k] <= n / 2; other[k]++) {
                     least = lattices_common_divisor(other[k], n) == 1
@@ -275,6 +198,10 @@ TEST_CASE(components_of_weights_are_the_best)
             }
         }
     }
+    size_t all[5], limited[5];
+    lattices_multipliers("lattice-rank1", 1021, 5, all);
+    lattices_multipliers("lattice-rank1:order=8", 1021, 5, limited);
+    assert_memory_equal(all, limited, sizeof all);
 }
 
 /* The defaults are powers of 3 / (8 pi^2), and weights without effect are refused. */
@@ -290,12 +217,7 @@ TEST_CASE(weights_of_orders)
     assert_memory_not_equal(own, other, sizeof own);
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
         char text[64];
-        koksma_spec spec;
-        koksma_points points;
         snprintf(text, sizeof text, "lattice-rank1:%s", wrong[w]);
-        assert_ok(koksma_pattern_spec(text, &spec));
-        assert_ok(koksma_points_init(&points, 8, 3));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_ARGUMENT);
-        koksma_points_fini(&points);
+        assert_int_equal(status_of(text, 8, 3), KOKSMA_ARGUMENT);
     }
 }

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "claims/claims.h"
-#include "test.h"
+#include "pattern_sets.h"
 
 static uint32_t *mask_of(int size, uint64_t seed)
 {
@@ -188,14 +187,9 @@ TEST_CASE(a_pixel_can_have_its_vector)
     assert_ok(koksma_mask_vectors(5, 2, 8, NULL, values));
     koksma_points points = test_points("mask-offset:width=5,masks=vectors", 25, 2, 8);
     assert_memory_equal(points.xs, values, sizeof values);
-    koksma_spec spec;
-    assert_ok(koksma_pattern_spec("mask-offset:width=4,masks=vectors", &spec));
-    assert_int_equal(koksma_generate(&spec, 8, NULL, &points), KOKSMA_N);
     koksma_points_fini(&points);
-    assert_ok(koksma_pattern_spec("mask-offset:width=257,masks=vectors", &spec));
-    assert_ok(koksma_points_init(&points, 257 * 257, 2));
-    assert_int_equal(koksma_generate(&spec, 8, NULL, &points), KOKSMA_ARGUMENT);
-    koksma_points_fini(&points);
+    assert_int_equal(status_of("mask-offset:width=4,masks=vectors", 25, 2), KOKSMA_N);
+    assert_int_equal(status_of("mask-offset:width=257,masks=vectors", 257 * 257, 2), KOKSMA_ARGUMENT);
 }
 
 TEST_CASE(pixels_have_nets)
@@ -210,29 +204,6 @@ TEST_CASE(pixels_have_nets)
     }
 }
 
-enum { INTEGRANDS = 6 };
-
-static const struct {
-    const char *name;
-    double mean;
-} integrands[INTEGRANDS] = {{"x", 0.5},
-                            {"xy", 0.25},
-                            {"gaussian", 0.55774628535103},
-                            {"quarter disk", 0.5},
-                            {"step", 0.31830988618379},
-                            {"step in y", 0.31830988618379}};
-
-static void evaluate(const double *xy, double f[INTEGRANDS])
-{
-    const double square = xy[0] * xy[0] + xy[1] * xy[1];
-    f[0] += xy[0];
-    f[1] += xy[0] * xy[1];
-    f[2] += exp(-square);
-    f[3] += square < 0.63661977236758;
-    f[4] += xy[0] < 0.31830988618379;
-    f[5] += xy[1] < 0.31830988618379;
-}
-
 /* errors[width^2 f + pixel] of a tile. */
 static void errors_of(const koksma_points *tile, size_t pixels, double *errors)
 {
@@ -240,7 +211,7 @@ static void errors_of(const koksma_points *tile, size_t pixels, double *errors)
     for (size_t p = 0; p < pixels; p++) {
         double f[INTEGRANDS] = {0};
         for (size_t s = 0; s < spp; s++) {
-            evaluate(tile->xs + 2 * (p * spp + s), f);
+            add_integrands(tile->xs + 2 * (p * spp + s), f);
         }
         for (int k = 0; k < INTEGRANDS; k++) {
             errors[(size_t)k * pixels + p] = f[k] / (double)spp - integrands[k].mean;
@@ -302,10 +273,10 @@ TEST_CASE(neighbours_errors_cancel)
     static const struct {
         size_t spp;
         double most[INTEGRANDS];
-    } cases[N_SPP] = {{1, {.15, .35, .2, .6, .25, .25}},  {2, {.15, .35, .25, .9, .25, .25}},
-                      {4, {.2, .35, .25, .6, .3, .3}},    {16, {.15, .35, .25, .6, .4, .4}},
-                      {64, {.15, .5, .35, .6, .25, .25}}, {3, {.2, .65, .35, 1, .3, .3}},
-                      {6, {.2, .55, .35, 1, .3, .3}},     {12, {.25, .4, .35, .95, .4, .4}}};
+    } cases[N_SPP] = {{1, {.15, .35, .2, .6, .25, .25, .5}},  {2, {.15, .35, .25, .9, .25, .25, .9}},
+                      {4, {.2, .35, .25, .6, .3, .3, .6}},    {16, {.15, .35, .25, .6, .4, .4, .6}},
+                      {64, {.15, .5, .35, .6, .25, .25, .6}}, {3, {.2, .65, .35, 1, .3, .3, 1}},
+                      {6, {.2, .55, .35, 1, .3, .3, 1}},      {12, {.25, .4, .35, .95, .4, .4, .95}}};
     static double errors[INTEGRANDS * PIXELS];
     uint32_t *ranks[TILES][3];
     for (size_t m = 0; m < TILES * 3; m++) {
@@ -351,15 +322,10 @@ TEST_CASE(masks_in_files_vary_the_pixels)
         numbers.xs[p] = (p * 7 % N + 0.5) / N;
         squares.xs[p] = numbers.xs[p] * numbers.xs[p];
     }
-    const koksma_points *const both[] = {&numbers, &squares};
-    for (int f = 0; f < 2; f++) { /* .npy of shape (H, W), as others write them */
-        FILE *file = fopen(f ? "squares.npy" : "numbers.npy", "wb");
-        char head[119];
-        snprintf(head, sizeof head, "%-117s\n", "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 6), }");
-        fprintf(file, "%cNUMPY%c%c%c%c%s", 0x93, 1, 0, 118, 0, head);
-        fwrite(both[f]->xs, sizeof(double), N, file);
-        fclose(file);
-    }
+    static const char head[] =
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (4, 6), }"; /* as others write them */
+    write_npy("numbers.npy", head, numbers.xs, N * sizeof(double));
+    write_npy("squares.npy", head, squares.xs, N * sizeof(double));
     koksma_points a = test_points("mask-file:numbers.npy", N * SPP, 2, 3);
     koksma_points b = test_points("mask-file:squares.npy", N * SPP, 2, 3);
     koksma_points c = test_points("mask-file:numbers.npy", N * SPP, 2, 4);
@@ -385,15 +351,12 @@ TEST_CASE(vectors_in_files_are_the_samples)
     enum { W = 5, H = 4, N = W * H };
     for (int dim = 2; dim <= 4; dim += 2) {
         float v[4 * N];
-        FILE *file = fopen("vectors.npy", "wb");
         char head[119];
         for (int i = 0; i < dim * N; i++) {
             v[i] = (float)((i * 11 % (dim * N) + 0.5) / (dim * N));
         }
         snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 5, %d), }", dim);
-        fprintf(file, "%cNUMPY%c%c%c%c%-117s\n", 0x93, 1, 0, 118, 0, head);
-        fwrite(v, sizeof *v, (size_t)dim * N, file);
-        fclose(file);
+        write_npy("vectors.npy", head, v, sizeof *v * (size_t)dim * N);
         for (uint64_t seed = 0; seed < 5; seed++) {
             koksma_points points = test_points("mask-file:vectors.npy", N, dim, seed);
             int shifts = 0;
@@ -408,15 +371,8 @@ TEST_CASE(vectors_in_files_are_the_samples)
             assert_int_equal(shifts, 1);
             koksma_points_fini(&points);
         }
-        koksma_spec spec;
-        koksma_points two, other;
-        assert_ok(koksma_pattern_spec("mask-file:vectors.npy", &spec));
-        assert_ok(koksma_points_init(&two, 2 * N, dim));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &two), KOKSMA_N);
-        koksma_points_fini(&two);
-        assert_ok(koksma_points_init(&other, N, 6 - dim));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &other), KOKSMA_DIM);
-        koksma_points_fini(&other);
+        assert_int_equal(status_of("mask-file:vectors.npy", 2 * N, dim), KOKSMA_N);
+        assert_int_equal(status_of("mask-file:vectors.npy", N, 6 - dim), KOKSMA_DIM);
     }
 }
 
@@ -428,20 +384,12 @@ TEST_CASE(directions_without_samples_are_refused)
         const koksma_mask_space *space = koksma_mask_space_find(spaces[s]);
         koksma_mask_options options = {.width = 9, .height = 4, .space = space, .filter = {2, 1, {1, 1}}};
         float v[3 * 36];
-        koksma_spec spec;
-        koksma_points points;
-        assert_ok(koksma_mask_optimise(&options, NULL, v, NULL));
-        FILE *file = fopen("unit.npy", "wb");
         char head[119];
+        assert_ok(koksma_mask_optimise(&options, NULL, v, NULL));
         snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 9, %d), }", space->dim);
-        fprintf(file, "%cNUMPY%c%c%c%c%-117s\n", 0x93, 1, 0, 118, 0, head);
-        fwrite(v, sizeof *v, (size_t)space->dim * 36, file);
-        fclose(file);
-        assert_ok(koksma_pattern_spec("mask-file:unit.npy", &spec));
-        assert_ok(koksma_points_init(&points, 36, 2));
-        assert_int_equal(koksma_generate(&spec, 0, NULL, &points), KOKSMA_MALFORMED);
+        write_npy("unit.npy", head, v, sizeof *v * (size_t)space->dim * 36);
+        assert_int_equal(status_of("mask-file:unit.npy", 36, 2), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), spaces[s]));
-        koksma_points_fini(&points);
     }
 }
 
@@ -459,12 +407,9 @@ TEST_CASE(directions_in_files_are_the_samples)
         float v[3 * N];
         assert_ok(koksma_mask_optimise(&options, NULL, v, NULL));
         v[0] = 0, v[1] = -1, v[dim - 1] = s ? -1 : 0; /* on the rim */
-        FILE *file = fopen("round.npy", "wb");
         char head[119];
         snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (4, 9, %d), }", space->dim);
-        fprintf(file, "%cNUMPY%c%c%c%c%-117s\n", 0x93, 1, 0, 118, 0, head);
-        fwrite(v, sizeof *v, dim * N, file);
-        fclose(file);
+        write_npy("round.npy", head, v, sizeof *v * dim * N);
         koksma_points points = test_points("mask-file:round.npy", N, 2, 5), mapped;
         assert_ok(koksma_warp_points(koksma_warp_find(warps[s]), &points, &mapped));
         int shifts = 0;

@@ -6,17 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "test.h"
+#include "pattern_sets.h"
 
 enum { MOST = 4096 };
-
-static koksma_status points_of(const char *text, size_t n, int dim, koksma_points *points)
-{
-    koksma_spec spec;
-    assert_ok(koksma_pattern_spec(text, &spec));
-    assert_ok(koksma_points_init(points, n, dim));
-    return koksma_generate(&spec, 1, NULL, points);
-}
 
 static int compare_points(const void *a, const void *b)
 {
@@ -42,7 +34,7 @@ TEST_CASE(lattices_are_their_multiples)
         for (uint64_t n = 1; n <= files[f].most; n *= files[f].base) {
             koksma_points points;
             double expected[MOST][2];
-            assert_ok(points_of("lattice-file:lattice.txt", n, 2, &points));
+            points = test_points("lattice-file:lattice.txt", n, 2, 1);
             for (uint64_t i = 0; i < n; i++) {
                 expected[i][0] = (double)(i * files[f].z[0] % n) / (double)n;
                 expected[i][1] = (double)(i * files[f].z[1] % n) / (double)n;
@@ -57,13 +49,12 @@ TEST_CASE(lattices_are_their_multiples)
     }
     koksma_points points;
     test_write("prime.txt", "# lattice\n2\n101\n1\n40\n");
-    assert_ok(points_of("lattice-file:prime.txt", 101, 2, &points));
+    points = test_points("lattice-file:prime.txt", 101, 2, 1);
     for (uint64_t i = 0; i < 101; i++) {
         assert_near(points.xs[2 * i + 1], (double)(i * 40 % 101) / 101, 1e-15);
     }
     koksma_points_fini(&points);
-    assert_int_equal(points_of("lattice-file:prime.txt", 100, 2, &points), KOKSMA_N);
-    koksma_points_fini(&points);
+    assert_int_equal(status_of("lattice-file:prime.txt", 100, 2), KOKSMA_N);
 }
 
 /* u = b^-r sum_l b^(r-l) (sum_c C[l][c] a_c mod b) for random matrices: the definition, digit by digit. */
@@ -99,7 +90,7 @@ TEST_CASE(nets_are_matrices_times_digits)
         fclose(file);
         const size_t n = points_in_file < 1000 ? points_in_file : 1000;
         koksma_points points;
-        assert_ok(points_of("net-file:net.txt", n, 3, &points));
+        points = test_points("net-file:net.txt", n, 3, 1);
         for (size_t i = 0; i < n; i++) {
             for (int k = 0; k < 3; k++) {
                 long double x = 0, place = 1;
@@ -116,8 +107,7 @@ TEST_CASE(nets_are_matrices_times_digits)
             }
         }
         koksma_points_fini(&points);
-        assert_int_equal(points_of("net-file:net.txt", (size_t)points_in_file + 1, 3, &points), KOKSMA_N);
-        koksma_points_fini(&points);
+        assert_int_equal(status_of("net-file:net.txt", (size_t)points_in_file + 1, 3), KOKSMA_N);
     }
 }
 
@@ -177,7 +167,7 @@ TEST_CASE(polynomial_lattices_are_quotients)
             n *= b;
         }
         koksma_points points;
-        assert_ok(points_of("net-file:plattice.txt", n, 3, &points));
+        points = test_points("net-file:plattice.txt", n, 3, 1);
         for (uint64_t i = 0; i < n; i++) {
             uint64_t h[32], q[32], product[64];
             coefficients(i, b, h);
@@ -209,13 +199,12 @@ TEST_CASE(sobol_numbers_give_sobol_points)
         koksma_points a, b;
         snprintf(text, sizeof text, "%s%s", heads[h], lines);
         test_write("jk.txt", text);
-        assert_ok(points_of("net-file:jk.txt", 5000, 8, &a));
-        assert_ok(points_of("sobol", 5000, 8, &b));
+        a = test_points("net-file:jk.txt", 5000, 8, 1);
+        b = test_points("sobol", 5000, 8, 1);
         assert_memory_equal(a.xs, b.xs, 5000 * 8 * sizeof *a.xs);
         koksma_points_fini(&a);
         koksma_points_fini(&b);
-        assert_int_equal(points_of("net-file:jk.txt", 16, 9, &a), KOKSMA_DIM);
-        koksma_points_fini(&a);
+        assert_int_equal(status_of("net-file:jk.txt", 16, 9), KOKSMA_DIM);
     }
 }
 
@@ -225,60 +214,15 @@ TEST_CASE(sobol_numbers_have_their_bits)
     static const char *const lines[] = {"3 2 3 1 3", "3 2 2 1 3", "3 2 18446744073709551615 1 3", "3 1 1 1"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         char text[80];
-        koksma_points points;
         snprintf(text, sizeof text, "d s a m_i\n2 1 0 1\n%s # last\n", lines[i]);
         test_write("jk.txt", text);
-        assert_int_equal(points_of("net-file:jk.txt", 16, 3, &points), KOKSMA_MALFORMED);
+        assert_int_equal(status_of("net-file:jk.txt", 16, 3), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "line 3: a is "));
-        koksma_points_fini(&points);
     }
 }
 
 /* LatNet Builder's own output, from its examples (umontreal-simul/latnetbuilder, examples/examples-IO): the program prints
-   one net in two or three forms, which have to give the same points: polynomial lattices to the k = 10 digits that it gives
-   their matrices. */
-static const char polynomial_lattice[] =
-    "# Input Command Line: -t lattice -c polynomial -s 2^10 -d 10 -f CU:P2 -q 2 -w product:0.1 -e fast-CBC\n"
-    "# Merit: 0.000818148\n# Parameters for a polynomial lattice rule in base 2\n10       # 10 dimensions\n"
-    "10      # k = 10, n = 2^10 = 1024 points\n1033   # polynomial modulus\n"
-    "# Coordinates of generating vector, starting at j=1\n1\n800\n839\n753\n";
-static const char polynomial_net[] =
-    "# Input Command Line: -t lattice -c polynomial -s 2^10 -d 10 -f CU:P2 -q 2 -w product:0.1 -e fast-CBC\n"
-    "# Merit: 0.000818148\n# Parameters for a digital net in base 2\n10    # 10 dimensions\n"
-    "10   # k = 10,  n = 2^10 = 1024 points\n31   # r = 31 binary output digits\n"
-    "# Columns of gen. matrices C_1,...,C_s, one matrix per line\n"
-    "2097152 4194304 8388608 16777216 33554432 67108864 134217728 270532608 541065216 "
-    "1082130432\n"
-    "1690304512 1235222528 322961408 645922816 1291845632 436207616 874512384 1749024768 "
-    "1350565888 555745280\n"
-    "1746927616 1346371584 547356672 1094713344 44040192 88080384 176160768 354418688 "
-    "708837376 1419771904\n"
-    "1585446912 1023410176 2048917504 1950351360 1755316224 1363148800 580911104 1161822208 "
-    "178257920 358612992\n";
-static const char sobol_net[] =
-    "# Merit: 5\n# Parameters for a digital net in base 2\n10    # 10 dimensions\n"
-    "16   # k = 16,  n = 2^16 = 65536 points\n31   # r = 31 binary output digits\n"
-    "# Columns of gen. matrices C_1,...,C_s, one matrix per line\n"
-    "1073741824 536870912 268435456 134217728 67108864 33554432 16777216 8388608 4194304 "
-    "2097152 1048576 524288 262144 131072 65536 32768\n"
-    "1073741824 1610612736 1342177280 2013265920 1140850688 1711276032 1426063360 2139095040 "
-    "1077936128 1616904192 1347420160 2021130240 1145307136 1717960704 1431633920 2147450880\n"
-    "1073741824 536870912 1879048192 1476395008 872415232 2046820352 1124073472 662700032 "
-    "1950351360 1512046592 862978048 2144862208 1081344000 542769152 1882390528 1484750848\n"
-    "1073741824 1610612736 268435456 671088640 2080374784 973078528 1358954496 1233125376 "
-    "1816133632 312475648 753926144 1936195584 1006895104 1510342656 1090584576 1635942400\n"
-    "1073741824 536870912 1879048192 939524096 469762048 1644167168 1560281088 1115684864 "
-    "750780416 2053111808 816840704 434634752 1824784384 1516371968 1085734912 569081856\n"
-    "1073741824 1610612736 268435456 2013265920 603979776 1979711488 1761607680 1535115264 "
-    "1346371584 408944640 873463808 242745344 1294204928 771096576 958988288 1136361472\n"
-    "1073741824 1610612736 268435456 2013265920 1006632960 1509949440 1258291200 880803840 "
-    "188743680 1423966208 458227712 748158976 661389312 1992425472 1814495232 1115062272\n"
-    "1073741824 1610612736 805306368 134217728 603979776 1912602624 1795162112 360710144 "
-    "2051014656 1310720000 1678770176 303562752 1527513088 495058944 1581842432 1010597888\n"
-    "1073741824 536870912 805306368 939524096 201326592 2046820352 754974720 1266679808 "
-    "348127232 1205862400 1829765120 1804075008 617349120 2146304000 1628635136 295075840\n"
-    "1073741824 1610612736 1879048192 2013265920 738197504 704643072 1191182336 226492416 "
-    "985661440 1306525696 1527775232 1066926080 568066048 310247424 182124544 1441955840\n";
+   one net with the polynomials or without. test_published_files.c has polynomial lattices and t of these nets. */
 static const char sobol_jk[] =
     "# Merit: 5\n# Parameters for Sobol points, in JK format\n10    # 10 dimensions\n#  d  a  m_{j,c}\n2  1  0  1\n"
     "3  2  1  1 1\n4  3  1  1 3 1\n5  3  2  1 1 7\n6  4  1  1 3 1 15\n7  4  4  1 3 1 15\n8  5  2  1 3 3 1 9\n"
@@ -290,30 +234,15 @@ static const char sobol_short[] =
 
 TEST_CASE(latnet_builders_forms_agree)
 {
-    static const struct {
-        const char *net, *other;
-        size_t n;
-        int dim;
-        double scale; /* 2^digits */
-    } pairs[] = {{polynomial_net, polynomial_lattice, 1024, 4, 0x1p10},
-                 {sobol_net, sobol_jk, 4096, 10, 0x1p31},
-                 {sobol_net, sobol_short, 4096, 10, 0x1p31}};
-    for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
-        koksma_points a, b;
-        test_write("net.txt", pairs[p].net);
-        test_write("other.txt", pairs[p].other);
-        assert_ok(points_of("net-file:net.txt", pairs[p].n, pairs[p].dim, &a));
-        assert_ok(points_of("net-file:other.txt", pairs[p].n, pairs[p].dim, &b));
-        for (size_t i = 0; i < pairs[p].n * (size_t)pairs[p].dim; i++) {
-            assert_near(a.xs[i], floor(b.xs[i] * pairs[p].scale) / pairs[p].scale, 0);
-        }
-        koksma_points_fini(&a);
-        koksma_points_fini(&b);
-    }
-    koksma_points points;
-    test_write("net.txt", sobol_short);
-    assert_int_equal(points_of("net-file:net.txt", 4, 11, &points), KOKSMA_DIM);
-    koksma_points_fini(&points);
+    koksma_points a, b;
+    test_write("jk.txt", sobol_jk);
+    test_write("short.txt", sobol_short);
+    a = test_points("net-file:jk.txt", 4096, 10, 1);
+    b = test_points("net-file:short.txt", 4096, 10, 1);
+    assert_memory_equal(a.xs, b.xs, 4096 * 10 * sizeof *a.xs);
+    koksma_points_fini(&a);
+    koksma_points_fini(&b);
+    assert_int_equal(status_of("net-file:short.txt", 4, 11), KOKSMA_DIM);
 }
 
 /* Its ordinary lattices are the multiples of the vector, embedded or not. */
@@ -325,7 +254,7 @@ TEST_CASE(latnet_builders_lattices_are_read)
         "# Input Command Line: -t lattice -c ordinary -s 2^16 -d 100 -f CU:P2 -q 2 --multilevel true\n"
         "# Merit: 4.49877e+12\n# Parameters for a lattice rule, embedded from 2 to 16\n100    # 100 dimensions\n"
         "65536    # modulus = n = 65536 points\n# Coordinates of generating vector, starting at j=1\n1\n25811\n");
-    assert_ok(points_of("lattice-file:lattice.txt", 4096, 2, &points));
+    points = test_points("lattice-file:lattice.txt", 4096, 2, 1);
     for (size_t i = 0; i < 4096; i++) { /* x = j / 4096, y = {25811 j / 4096} */
         const uint64_t j = (uint64_t)(points.xs[2 * i] * 4096);
         assert_near(points.xs[2 * i + 1], (double)(j * 25811 % 4096) / 4096, 1e-15);
@@ -359,7 +288,7 @@ TEST_CASE(latnet_builders_interlaced_nets_are_interlaced)
     }
     assert_int_equal(fclose(file), 0);
     koksma_points points;
-    assert_ok(points_of("net-file:net.txt", 1024, 2, &points));
+    points = test_points("net-file:net.txt", 1024, 2, 1);
     for (uint32_t i = 0; i < 1024; i++) {
         for (int k = 0; k < 2; k++) {
             uint32_t y[2] = {0, 0};
@@ -377,9 +306,8 @@ TEST_CASE(latnet_builders_interlaced_nets_are_interlaced)
     }
     koksma_points_fini(&points);
     test_write("net.txt", "# Parameters for a digital net in base 2\n2\n2 # Interlacing factor\n5\n2\n2\n");
-    assert_int_equal(points_of("net-file:net.txt", 4, 2, &points), KOKSMA_MALFORMED);
+    assert_int_equal(status_of("net-file:net.txt", 4, 2), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "5 components, not 2 times 2"));
-    koksma_points_fini(&points);
 }
 
 /* Each file is refused, and the message names the file, the line and what is wrong. */
@@ -418,17 +346,13 @@ TEST_CASE(bad_files_are_refused)
         {"net-file", "d s a m_i\n2 1\n", "line 2", KOKSMA_MALFORMED},
     };
     for (size_t f = 0; f < sizeof files / sizeof *files; f++) {
-        koksma_points points;
         char text[64];
         snprintf(text, sizeof text, "%s:bad.txt", files[f].pattern);
         test_write("bad.txt", files[f].text);
-        const koksma_status status = points_of(text, 2, 2, &points);
+        const koksma_status status = status_of(text, 2, 2);
         assert_that(status == files[f].status && strstr(koksma_error_text(), files[f].says) &&
                         strstr(koksma_error_text(), "bad.txt"),
                     "%s of %s: %d, %s", files[f].pattern, files[f].text, (int)status, koksma_error_text());
-        koksma_points_fini(&points);
     }
-    koksma_points points;
-    assert_int_equal(points_of("net-file:nosuch.txt", 2, 2, &points), KOKSMA_MISSING);
-    koksma_points_fini(&points);
+    assert_int_equal(status_of("net-file:nosuch.txt", 2, 2), KOKSMA_MISSING);
 }

@@ -1,56 +1,40 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * What Christensen, Kensler & Kilpatrick 2018 state of the errors of progressive multi-jittered (0,2) sequences, for their
- * five functions and 100 sequences: at powers of two the root mean square error falls about as N^-1.5 for the smooth
+ * functions and 100 sequences: at powers of two the root mean square error falls about as N^-1.5 for the smooth
  * functions, as N^-0.75 for the edges of a disk and a triangle, and as N^-1 for a step along an axis, where that of random
  * points falls as N^-0.5; and any prefix is well distributed. The nets behind it are claims (net2-prefixes, classes).
  * docs/findings/integration.md has the slopes.
  */
-#include "test.h"
+#include "pattern_sets.h"
 
-enum { FUNCTIONS = 5, SEQUENCES = 100, N = 4096 };
+enum { SEQUENCES = 100, N = 4096, STEP = 4 };
 
-static const struct {
-    const char *name;
-    double mean, slope; /* slope of log error against log N from 64 to 4,096 points; of a step 0: see below */
-} functions[FUNCTIONS] = {{"quarter disk", 0.5, -0.75},
-                          {"triangle", 0.5, -0.75},
-                          {"quarter Gaussian", 0.55774628535103, -1.5},
-                          {"bilinear", 0.25, -1.5},
-                          {"step at 1/pi", 0.31830988618379067, 0}};
-
-static void evaluate(const double *xy, double f[FUNCTIONS])
-{
-    const double square = xy[0] * xy[0] + xy[1] * xy[1];
-    f[0] += square < 0.63661977236758134; /* 2/pi */
-    f[1] += xy[1] < xy[0];
-    f[2] += exp(-square);
-    f[3] += xy[0] * xy[1];
-    f[4] += xy[0] < 0.31830988618379067;
-}
+/* Slopes of log error against log N from 64 to 4,096 points; of steps 0: see below. */
+static const double slopes[INTEGRANDS] = {-1.5, -1.5, -1.5, -0.75, 0, 0, -0.75};
 
 /* errors[n][f]: the root mean square error of the first n points. */
-static void errors_of(const char *spec, double errors[N + 1][FUNCTIONS])
+static void errors_of(const char *spec, double errors[N + 1][INTEGRANDS])
 {
     for (size_t n = 0; n <= N; n++) {
-        for (int k = 0; k < FUNCTIONS; k++) {
+        for (int k = 0; k < INTEGRANDS; k++) {
             errors[n][k] = 0;
         }
     }
     for (uint64_t seed = 0; seed < SEQUENCES; seed++) {
         koksma_points points = test_points(spec, N, 2, seed);
-        double sums[FUNCTIONS] = {0};
+        double sums[INTEGRANDS] = {0};
         for (size_t i = 0; i < N; i++) {
-            evaluate(points.xs + 2 * i, sums);
-            for (int k = 0; k < FUNCTIONS; k++) {
-                const double error = sums[k] / (double)(i + 1) - functions[k].mean;
+            add_integrands(points.xs + 2 * i, sums);
+            for (int k = 0; k < INTEGRANDS; k++) {
+                const double error = sums[k] / (double)(i + 1) - integrands[k].mean;
                 errors[i + 1][k] += error * error / SEQUENCES;
             }
         }
         koksma_points_fini(&points);
     }
     for (size_t n = 0; n <= N; n++) {
-        for (int k = 0; k < FUNCTIONS; k++) {
+        for (int k = 0; k < INTEGRANDS; k++) {
             errors[n][k] = sqrt(errors[n][k]);
         }
     }
@@ -59,29 +43,29 @@ static void errors_of(const char *spec, double errors[N + 1][FUNCTIONS])
 TEST_CASE(errors_fall_as_published)
 {
     static const char *const specs[] = {"pmj02", "pmj02:shuffle=1", "pmj02bn:levels=4"};
-    static double errors[N + 1][FUNCTIONS], random[N + 1][FUNCTIONS];
+    static double errors[N + 1][INTEGRANDS], random[N + 1][INTEGRANDS];
     errors_of("random", random);
     for (size_t s = 0; s < sizeof specs / sizeof *specs; s++) {
         errors_of(specs[s], errors);
-        for (int k = 0; k < FUNCTIONS; k++) {
+        for (int k = 0; k < INTEGRANDS; k++) {
             double slope = 0; /* least squares over n = 64, 256, 1024, 4096 */
             for (int j = 0; j < 4; j++) {
                 slope += (2 * j - 3) * log2(errors[64u << 2 * j][k]) / 20;
             }
             /* from 100 sequences a slope has a standard error of .02; N^-1.5 has a power of log N before it, so that
                slopes up to 4,096 points are about -1.42 */
-            assert_that(functions[k].slope >= 0 || fabs(slope - functions[k].slope) < 0.15,
-                        "%s, %s: the error falls as N^%.2f, not N^%.2f", specs[s], functions[k].name, slope,
-                        functions[k].slope);
+            assert_that(slopes[k] >= 0 || fabs(slope - slopes[k]) < 0.15,
+                        "%s, %s: the error falls as N^%.2f, not N^%.2f", specs[s], integrands[k].name, slope,
+                        slopes[k]);
             for (size_t n = 16; n <= N; n++) {
                 assert_that(errors[n][k] < 0.75 * random[n][k],
                             "%s, %s: the first %zu points have %.2f of the error of random points", specs[s],
-                            functions[k].name, n, errors[n][k] / random[n][k]);
+                            integrands[k].name, n, errors[n][k] / random[n][k]);
             }
         }
         /* a step along an axis: of 2^m points one stratum of 1/2^m is in doubt, so that the error is below N^-1 */
         for (size_t n = 2; n <= N; n *= 2) {
-            assert_true(errors[n][FUNCTIONS - 1] < 1 / (double)n);
+            assert_true(errors[n][STEP] < 1 / (double)n && errors[n][STEP + 1] < 1 / (double)n);
         }
     }
 }

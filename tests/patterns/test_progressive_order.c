@@ -4,14 +4,12 @@
  * order, and every prefix is blue noise of its number, which a prefix of a random order is not.
  *
  * A random part of a share f of a set whose power is P has the power f P + 1 - f, so at low frequencies, where P is small,
- * it has 1 - f. The relative radius is the smallest distance on the torus over that of the densest known packing of as many
- * points (hexagonal, fcc, D4, D5, E6): spheres that fill a share `filled` of the volume.
+ * it has 1 - f.
  */
 #include <stdlib.h>
 #include <string.h>
 
-#include "sets.h"
-#include "test.h"
+#include "pattern_sets.h"
 
 enum { LEAST_DIM = 2, MOST_DIM = 6, SETS = 2 };
 
@@ -43,6 +41,20 @@ static koksma_points in_order(const char *pattern, const char *order, size_t n, 
     return test_points(text, n, dim, seed);
 }
 
+/* Fails unless two sets, which it sorts, have the same points; by_order: in different orders. */
+static void assert_reordered(koksma_points *a, koksma_points *b, bool by_order)
+{
+    const size_t size = (size_t)a->dim * sizeof *a->xs;
+    assert_int_equal(a->n, b->n);
+    assert_true(!by_order || memcmp(a->xs, b->xs, a->n * size));
+    width = a->dim;
+    qsort(a->xs, a->n, size, by_coordinates);
+    qsort(b->xs, b->n, size, by_coordinates);
+    assert_memory_equal(a->xs, b->xs, a->n * size);
+    koksma_points_fini(a);
+    koksma_points_fini(b);
+}
+
 TEST_CASE(the_points_are_those_of_the_plain_order)
 {
     for (size_t p = 0; p < PATTERNS; p++) {
@@ -50,14 +62,7 @@ TEST_CASE(the_points_are_those_of_the_plain_order)
             for (size_t n = 1; n <= 90; n = 3 * n - (n > 1)) { /* 1, 3, 8, 23, 68 */
                 koksma_points ordered = in_order(patterns[p], "progressive", n, dim, n);
                 koksma_points plain = in_order(patterns[p], "plain", n, dim, n);
-                const size_t bytes = n * (size_t)dim * sizeof *plain.xs;
-                assert_true(n < 23 || memcmp(ordered.xs, plain.xs, bytes));
-                width = dim;
-                qsort(ordered.xs, n, (size_t)dim * sizeof *plain.xs, by_coordinates);
-                qsort(plain.xs, n, (size_t)dim * sizeof *plain.xs, by_coordinates);
-                assert_memory_equal(ordered.xs, plain.xs, bytes);
-                koksma_points_fini(&ordered);
-                koksma_points_fini(&plain);
+                assert_reordered(&ordered, &plain, n >= 23);
             }
         }
     }
@@ -73,69 +78,11 @@ TEST_CASE(sets_by_distance_are_ordered)
         assert_ok(koksma_generate_whole(&spec, 4, NULL, dim, &plain));
         assert_ok(koksma_pattern_spec("poisson-disk-maximal:d=0.15,order=progressive", &spec));
         assert_ok(koksma_generate_whole(&spec, 4, NULL, dim, &ordered));
-        assert_int_equal(plain.n, ordered.n);
-        const size_t bytes = plain.n * (size_t)dim * sizeof *plain.xs;
-        assert_memory_not_equal(ordered.xs, plain.xs, bytes);
-        width = dim;
-        qsort(ordered.xs, plain.n, (size_t)dim * sizeof *plain.xs, by_coordinates);
-        qsort(plain.xs, plain.n, (size_t)dim * sizeof *plain.xs, by_coordinates);
-        assert_memory_equal(ordered.xs, plain.xs, bytes);
-        koksma_points_fini(&plain);
-        koksma_points_fini(&ordered);
+        assert_reordered(&ordered, &plain, true);
     }
 }
 
 /* ---- Prefixes --------------------------------------------------------------------------------------------- */
-
-static double relative_radius(const koksma_points *p)
-{
-    static const double ball[] = {3.14159265358979, 4.18879020478639, 4.93480220054468, 5.26378901391432,
-                                  5.16771278004997};
-    static const double filled[] = {0.906899682117109, 0.740480489693061, 0.616850275068085, 0.465257613309259,
-                                    0.372947545582064};
-    const int c = p->dim - LEAST_DIM;
-    double least = INFINITY;
-    for (size_t i = 0; i < p->n; i++) {
-        for (size_t j = 0; j < i; j++) {
-            least = fmin(least, sets_torus_distance2(p->xs + i * (size_t)p->dim, p->xs + j * (size_t)p->dim, p->dim));
-        }
-    }
-    return sqrt(least) / (2 * pow(filled[c] / (ball[c] * (double)p->n), 1.0 / p->dim));
-}
-
-/* The mean power of all frequencies k with |k| < radius but 0, with the first coordinates k_0 = 0 .. most. */
-static double power_within(const koksma_points *p, double radius)
-{
-    const int most = (int)radius;
-    const size_t side = (size_t)(2 * most + 1);
-    size_t frequencies = 1;
-    double sum = 0, count = 0;
-    for (int k = 0; k < p->dim; k++) {
-        frequencies *= side;
-    }
-    for (size_t f = 0; f < frequencies / 2; f++) { /* one of k and -k; the middle one is 0 */
-        int k[MOST_DIM], square = 0;
-        size_t rest = f;
-        for (int d = 0; d < p->dim; d++, rest /= side) {
-            k[d] = (int)(rest % side) - most;
-            square += k[d] * k[d];
-        }
-        if (square < radius * radius) {
-            double re = 0, im = 0;
-            for (size_t i = 0; i < p->n; i++) {
-                double turns = 0;
-                for (int d = 0; d < p->dim; d++) {
-                    turns += k[d] * p->xs[i * (size_t)p->dim + (size_t)d];
-                }
-                re += cos(2 * M_PI * turns);
-                im += sin(2 * M_PI * turns);
-            }
-            sum += (re * re + im * im) / (double)p->n;
-            count++;
-        }
-    }
-    return sum / count;
-}
 
 enum { PREFIXES = 5 };
 
