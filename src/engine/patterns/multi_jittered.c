@@ -13,6 +13,7 @@
 
 #include "core/random.h"
 #include "core/status.h"
+#include "kernels/kernels.h"
 #include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
 
@@ -22,14 +23,14 @@ static void place(uint64_t seed, size_t columns, size_t rows, uint32_t *permutat
 {
     const double n = (double)out->n;
     for (size_t c = 0; c < columns; c++) {
-        koksma__fill_permutation(seed, 2 * (uint32_t)c, (uint32_t)rows, permutation);
+        koksma__kernels()->permutation(seed, 2 * (uint32_t)c, (uint32_t)rows, permutation);
         for (size_t j = 0; j < rows; j++) {
             double *x = out->xs + 2 * (c * rows + j);
             *x = koksma__in_cell((double)(c * rows + permutation[j]), *x, n);
         }
     }
     for (size_t j = 0; j < rows; j++) {
-        koksma__fill_permutation(seed, 2 * (uint32_t)j + 1, (uint32_t)columns, permutation);
+        koksma__kernels()->permutation(seed, 2 * (uint32_t)j + 1, (uint32_t)columns, permutation);
         for (size_t c = 0; c < columns; c++) {
             double *y = out->xs + 2 * (c * rows + j) + 1;
             *y = koksma__in_cell((double)(j * columns + permutation[c]), *y, n);

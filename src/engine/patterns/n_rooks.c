@@ -39,7 +39,7 @@ static void place(const void *context, size_t first, size_t count, bool stream, 
 static koksma_status fill_plane(uint64_t seed, const koksma_run *run, uint32_t *rows, koksma_points *out)
 {
     const plane p = {seed, rows};
-    koksma__fill_permutation(seed, 1, (uint32_t)out->n, rows);
+    koksma__kernels()->permutation(seed, 1, (uint32_t)out->n, rows);
     return koksma__fill_rows(run, out, place, &p);
 }
 
@@ -49,7 +49,7 @@ static koksma_status fill_space(uint64_t seed, const koksma_run *run, uint32_t *
     const koksma_status status = koksma__fill_uniform(seed, KOKSMA__PURPOSE_POINT, run, n * dim, out->xs);
     for (size_t k = 0; !status && k < dim; k++) {
         if (k) {
-            koksma__fill_permutation(seed, (uint32_t)k, (uint32_t)n, permutation);
+            koksma__kernels()->permutation(seed, (uint32_t)k, (uint32_t)n, permutation);
         }
         for (size_t i = 0; i < n; i++) {
             double *x = &out->xs[i * dim + k];

@@ -132,16 +132,6 @@ static koksma_status check_dims(const koksma__number_lines *lines, uint64_t dims
     return KOKSMA_OK;
 }
 
-/* Returns the largest number of digits in this base that fit into 53 bits. */
-static int digits_in_double(uint64_t base)
-{
-    int digits = 0;
-    for (uint64_t room = UINT64_C(1) << 53; room >= base; room /= base) {
-        digits++;
-    }
-    return digits;
-}
-
 /* Sets the number of columns. `given` is this number or, if it is above MOST_COLUMNS, the number of points
    base^columns. */
 static koksma_status count_columns(const koksma__number_lines *lines, uint64_t base, uint64_t given, int *columns)
@@ -217,7 +207,7 @@ static koksma_status read_dnet(koksma__number_lines *lines, int dim, matrices *m
     KOKSMA__TRY(take(lines, "the number of columns", 1, UINT64_MAX, &columns));
     KOKSMA__TRY(count_columns(lines, base, columns, &m->columns));
     KOKSMA__TRY(take(lines, "the number of digits", 1, 64, &rows));
-    const int kept = digits_in_double(base), step = (int)factor, all = (int)rows * step;
+    const int kept = koksma__digits_of_double((uint32_t)base), step = (int)factor, all = (int)rows * step;
     m->base = (uint32_t)base;
     m->digits = all < kept ? all : kept;
     for (int k = 0; k < dim; k++) {
@@ -279,7 +269,7 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
     KOKSMA__TRY(take(lines, "the modulus", 2, UINT64_MAX, &value));
     m->base = (uint32_t)base;
     m->columns = (int)columns;
-    m->digits = digits_in_double(base);
+    m->digits = koksma__digits_of_double(m->base);
     KOKSMA__FAIL_IF(coefficients_of(value, m->base, modulus) != m->columns, KOKSMA_MALFORMED,
                     "%s: line %zu: the modulus is not of degree %d", lines->name, lines->number, m->columns);
     for (int k = 0; k < dim; k++) {
@@ -324,57 +314,6 @@ static koksma_status sobol_columns(const koksma__number_lines *lines, int k, con
     return KOKSMA_OK;
 }
 
-/* x^exponent modulo a polynomial over GF(2) of the given degree; bit d of a number is the coefficient of x^d. */
-static uint64_t power_of_x(uint64_t exponent, uint64_t modulus, int degree)
-{
-    uint64_t power = 1;
-    for (int bit = 63; bit >= 0; bit--) {
-        uint64_t square = 0;
-        for (int d = degree - 1; d >= 0; d--) { /* square = power^2, by Horner's rule */
-            square = square << 1 ^ (power >> d & 1 ? power : 0);
-            square ^= square >> degree & 1 ? modulus : 0;
-        }
-        power = square;
-        if (exponent >> bit & 1) {
-            power <<= 1;
-            power ^= power >> degree & 1 ? modulus : 0;
-        }
-    }
-    return power;
-}
-
-/* Whether a polynomial with the coefficient 1 of x^0 is primitive: x has the order 2^degree - 1, and no smaller one. */
-static bool is_primitive(uint64_t polynomial, int degree)
-{
-    const uint64_t order = (UINT64_C(1) << degree) - 1;
-    uint64_t left = order;
-    if (degree == 1) {
-        return true; /* x + 1 */
-    }
-    bool primitive = power_of_x(order, polynomial, degree) == 1;
-    for (uint64_t p = 3; primitive && left > 1; p += 2) {
-        p = p * p > left ? left : p;
-        if (left % p == 0) {
-            primitive = power_of_x(order / p, polynomial, degree) != 1;
-            while (left % p == 0) {
-                left /= p;
-            }
-        }
-    }
-    return primitive;
-}
-
-/* Goes to the next primitive polynomial x^degree + ... + 1: a has the inner coefficients. */
-static void next_polynomial(uint64_t *degree, uint64_t *a)
-{
-    do {
-        if (++*a >> (*degree - 1)) {
-            ++*degree;
-            *a = 0;
-        }
-    } while (!is_primitive(UINT64_C(1) << *degree | *a << 1 | 1, (int)*degree));
-}
-
 /* Reads the line of dimension k, counted from 0, as dimension, degree, a and m_1, m_2, ...; *count is 0 at the end. */
 static koksma_status next_sobol_line(koksma__number_lines *lines, int k, uint64_t *numbers, size_t *count)
 {
@@ -385,13 +324,14 @@ static koksma_status next_sobol_line(koksma__number_lines *lines, int k, uint64_
         KOKSMA__TRY(koksma__number_lines_next(lines, most, at, count));
     }
     if (short_form && *count) {
-        if (k == 1) {
-            numbers[1] = 1;
-            numbers[2] = 0;
-        } else {
-            next_polynomial(&numbers[1], &numbers[2]);
-        }
+        KOKSMA__FAIL_IF(k >= KOKSMA__SOBOL_DIM, KOKSMA_DIM,
+                        "%s: line %zu: without polynomials it can have %d dimensions; files with them have no limit",
+                        lines->name, lines->number, KOKSMA__SOBOL_DIM);
+        const uint32_t polynomial = koksma__sobol_polynomial(k);
+        const int degree = 31 - __builtin_clz(polynomial);
         numbers[0] = (uint64_t)k + 1;
+        numbers[1] = (uint64_t)degree;
+        numbers[2] = polynomial >> 1 & (((uint32_t)1 << (degree - 1)) - 1); /* without x^degree and 1 */
         *count += 3;
     }
     return KOKSMA_OK;

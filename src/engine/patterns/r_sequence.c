@@ -27,14 +27,6 @@
 
 enum { MAX_DIM = 64 };
 
-/* Returns the product of two fractions in units of 2^-64, truncated to 64 bits. */
-static uint64_t product(uint64_t a, uint64_t b)
-{
-    const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
-    const uint64_t middle = ah * bl + (al * bl >> 32), other = al * bh + (uint32_t)middle;
-    return ah * bh + (middle >> 32) + (other >> 32);
-}
-
 /* Returns the fraction a with a^dim + a^(dim+1) = 1, by bisection. */
 static uint64_t root(int dim)
 {
@@ -43,9 +35,9 @@ static uint64_t root(int dim)
         const uint64_t t = a | (uint64_t)1 << bit;
         uint64_t power = t;
         for (int k = 1; k < dim; k++) {
-            power = product(power, t);
+            power = koksma__upper_half(power, t);
         }
-        const uint64_t next = product(power, t);
+        const uint64_t next = koksma__upper_half(power, t);
         if (power + next >= power) { /* no overflow: the sum is below 1 */
             a = t;
         }
@@ -100,7 +92,7 @@ static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_poi
     } else if (out->dim > 2) {
         alphas[0] = root(out->dim);
         for (int k = 1; k < out->dim; k++) {
-            alphas[k] = product(alphas[k - 1], alphas[0]);
+            alphas[k] = koksma__upper_half(alphas[k - 1], alphas[0]);
         }
     }
     if (args->params[0] != 0) {

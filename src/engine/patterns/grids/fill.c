@@ -53,8 +53,3 @@ koksma_status koksma__fill_uniform(uint64_t seed, uint32_t purpose, const koksma
 {
     return koksma__range_uniform(seed, purpose, run, 0, count, xs);
 }
-
-void koksma__fill_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation)
-{
-    koksma__kernels()->permutation(seed, lane, n, permutation);
-}

@@ -17,9 +17,6 @@ koksma_status koksma__fill_uniform(uint64_t seed, uint32_t purpose, const koksma
 koksma_status koksma__range_uniform(uint64_t seed, uint32_t purpose, const koksma_run *run, uint64_t first,
                                     size_t count, double *xs);
 
-/* Computes the permutation of koksma__random_permutation, but faster. n >= 1. */
-void koksma__fill_permutation(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *permutation);
-
 /* ---- Cells ----------------------------------------------------------------------------------------------- */
 
 /* Helpers of the patterns on a grid of cells: they factor n into numbers of cells and put points into cells. */

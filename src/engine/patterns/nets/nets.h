@@ -191,6 +191,14 @@ static inline bool koksma__ranges_unscrambled(const double *params)
     return params[0] != KOKSMA__SCRAMBLE_OWEN;
 }
 
+/* Returns the upper 64 bits of the product: that of two fractions in units of 2^-64. */
+static inline uint64_t koksma__upper_half(uint64_t a, uint64_t b)
+{
+    const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
+    const uint64_t middle = ah * bl + (al * bl >> 32), other = al * bh + (uint32_t)middle;
+    return ah * bh + (middle >> 32) + (other >> 32);
+}
+
 /* ---- Digit sequence -------------------------------------------------------------------------------------- */
 
 /* Digital sequences in a prime base from upper triangular generator matrices. */
@@ -311,6 +319,10 @@ KOKSMA__LAB int koksma__sobol_dim(int set);
 /* Returns the generator matrix of dimension k, counted from 0: word b is column b, whose first row is the highest bit.
    k is below koksma__sobol_dim(set). */
 KOKSMA__LAB const uint32_t *koksma__sobol_directions(int k, int set);
+
+/* Returns the primitive polynomial of dimension k > 0 of Joe & Kuo's numbers, those in order by degree and then by value:
+   bit d is the coefficient of x^d. */
+uint32_t koksma__sobol_polynomial(int k);
 
 /* Computes the whole generator matrix of dimension k for indices below 2^53: bit 52 of columns[b] is row 1. The first 32
    columns are koksma__sobol_directions(k, set), with zeros in rows 33 to 53. */

@@ -54,14 +54,6 @@ static inline double whole_part(double x)
     return (double)(int64_t)x;
 }
 
-/* Returns the upper 64 bits of the 128-bit product. */
-static inline uint64_t upper_half(uint64_t a, uint64_t b)
-{
-    const uint64_t al = (uint32_t)a, ah = a >> 32, bl = (uint32_t)b, bh = b >> 32;
-    const uint64_t middle = ah * bl + (al * bl >> 32), other = al * bh + (uint32_t)middle;
-    return ah * bh + (middle >> 32) + (other >> 32);
-}
-
 /* Turns 64 random bits into a choice below `count`, which is returned, and a whole number below `width`. */
 static inline uint32_t choose(const double *bits, uint32_t count, double width, double *below)
 {
@@ -69,7 +61,7 @@ static inline uint32_t choose(const double *bits, uint32_t count, double width, 
     memcpy(word, bits, sizeof word);
     const uint64_t product = (uint64_t)word[0] * count;
     const uint64_t fraction = product << 32 | word[1];
-    *below = (double)(int64_t)upper_half(fraction, (uint64_t)width);
+    *below = (double)(int64_t)koksma__upper_half(fraction, (uint64_t)width);
     return (uint32_t)(product >> 32);
 }
 

@@ -73,6 +73,12 @@ const uint32_t *koksma__sobol_directions(int k, int set)
     return sets[set].columns[k];
 }
 
+uint32_t koksma__sobol_polynomial(int k)
+{
+    pthread_once(&once, expand_all);
+    return joe_kuo_polynomials[k];
+}
+
 void koksma__sobol_columns(int k, int set, uint64_t columns[KOKSMA__DIGITS])
 {
     const uint32_t *directions = koksma__sobol_directions(k, set), polynomial = sets[set].polynomials[k];
