@@ -9,7 +9,6 @@
 #include "identify/identify.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,17 +88,13 @@ static koksma_status identify(koksma__sample *s, const koksma_points *points)
         s->tolerance = tolerances[i];
         KOKSMA__TRY(koksma__identify_structure(s));
     }
-    if (s->named && s->tolerance > 0x1p-40) {
-        koksma_identity *said = koksma__identity(s, "rounded", "coordinates were compared within %.3g", s->tolerance);
-        KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-        snprintf(said->what, sizeof said->what, "%s",
-                 s->floats ? "all coordinates are floats" : "all coordinates have few digits");
-    }
     if (!s->named) {
-        koksma_identity *said =
-            koksma__identity(s, "unknown", "no sequence, lattice or pattern that is known here%s",
-                             s->few_digits > 0 ? ", as far as so few digits tell: more decimals tell more" : "");
-        KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
+        return koksma__say(s, "unknown", "", "", 0, "no sequence, lattice or pattern that is known here%s",
+                           s->few_digits > 0 ? ", as far as so few digits tell: more decimals tell more" : "");
+    }
+    if (s->tolerance > 0x1p-40) {
+        return koksma__say(s, "rounded", s->floats ? "all coordinates are floats" : "all coordinates have few digits",
+                           "", 0, "coordinates were compared within %.3g", s->tolerance);
     }
     return KOKSMA_OK;
 }

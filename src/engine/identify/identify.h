@@ -21,9 +21,15 @@ typedef struct koksma__sample {
     size_t before;         /* number of statements before that one, which a stronger one replaces */
 } koksma__sample;
 
-/* Adds a statement, whose detail is a format; `what` has to be filled by the caller. NULL when memory runs out. */
-koksma_identity *koksma__identity(koksma__sample *s, const char *relation, const char *detail, ...)
-    KOKSMA_PRINTF(3, 4);
+/* Coordinate k of point i. */
+static inline double koksma__x(const koksma__sample *s, size_t i, size_t k)
+{
+    return s->points.xs[i * (size_t)s->points.dim + k];
+}
+
+/* Adds a statement, whose detail is a format, and notes whether it names the points. Errors: MEMORY. */
+koksma_status koksma__say(koksma__sample *s, const char *relation, const char *what, const char *spec, uint64_t first,
+                          const char *detail, ...) KOKSMA_PRINTF(6, 7);
 
 /* Returns the distance of a and b on the circle of circumference 1, signed: in [-1/2, 1/2]. */
 double koksma__turn(double a);
@@ -51,8 +57,7 @@ typedef struct koksma__source {
 } koksma__source;
 
 typedef struct koksma__coordinate {
-    const koksma__source *source;
-    int j, digits;
+    int digits;
     uint32_t base;
     double whole;                          /* base^digits */
     uint64_t powers[54];                   /* base^k */
@@ -68,9 +73,10 @@ const koksma__source *koksma__source_at(size_t i);
 /* Returns how many coordinates a source has for points of dim dimensions. */
 int koksma__source_dims(const koksma__source *source, int dim);
 
-/* Prepares coordinate j of a source in `dim` dimensions, which koksma__coordinate_fini frees. Errors: MEMORY. */
-koksma_status koksma__coordinate_init(const koksma__source *source, int dim, int j, koksma__coordinate *c);
-void koksma__coordinate_fini(koksma__coordinate *c);
+/* Prepares the first `count` coordinates of a source for points of dim dimensions. koksma__coordinates_fini frees them,
+   also after an error. Errors: MEMORY. */
+koksma_status koksma__coordinates_init(const koksma__source *source, int dim, int count, koksma__coordinate **out);
+void koksma__coordinates_fini(koksma__coordinate *coordinates, int count);
 
 /* Returns the numerator of point i. */
 uint64_t koksma__numerator(const koksma__coordinate *c, uint64_t i);

@@ -8,7 +8,6 @@
  * ones: they are compared within such a rounding, after an attempt with the precision of double.
  */
 #include <math.h>
-#include <stdio.h>
 
 #include "core/elementary.h"
 #include "core/status.h"
@@ -78,11 +77,8 @@ koksma_status koksma__map_to_cube(koksma__sample *s)
         map_coordinate(points, (int)k, b);
         s->width = fmin(s->width, b.hi - b.lo);
     }
-    koksma_identity *said =
-        koksma__identity(s, "scaled", indices ? "whole numbers, divided by n: %s" : "from %s", text);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    snprintf(said->what, sizeof said->what, "mapped to the unit cube");
-    return KOKSMA_OK;
+    return koksma__say(s, "scaled", "mapped to the unit cube", "", 0,
+                       indices ? "whole numbers, divided by n: %s" : "from %s", text);
 }
 
 static bool all_multiples(const koksma_points *points, double scale, double slack)

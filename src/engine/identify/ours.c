@@ -48,15 +48,13 @@ static koksma_status say(ours *o, const koksma_spec *spec, uint64_t seed, const 
     for (size_t i = 0; i < count; i++) {
         difference = fmax(difference, fabs(o->made.xs[i] - o->s->points.xs[i]));
     }
-    koksma_identity *said =
-        strcmp(relation, "equal")
-            ? koksma__identity(o->s, relation, "the same %zu points", o->made.n)
-            : koksma__identity(o->s, relation, "largest difference %.3g in %zu points", difference, o->made.n);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    snprintf(said->what, sizeof said->what, "%s", spec->pattern->title);
-    koksma_spec_text(spec, said->spec);
-    said->seed = seed;
-    o->s->named = true;
+    char text[KOKSMA_MAX_SPEC];
+    koksma_spec_text(spec, text);
+    KOKSMA__TRY(strcmp(relation, "equal")
+                    ? koksma__say(o->s, relation, spec->pattern->title, text, 0, "the same %zu points", o->made.n)
+                    : koksma__say(o->s, relation, spec->pattern->title, text, 0,
+                                  "largest difference %.3g in %zu points", difference, o->made.n));
+    o->s->found->items[o->s->found->count - 1].seed = seed;
     return KOKSMA_OK;
 }
 

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "core/c_locale.h"
+#include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/status.h"
 #include "identify/identify.h"
@@ -41,15 +42,10 @@ typedef struct plain {
     uint64_t *indices;
 } plain;
 
-static double x_at(const plain *p, size_t i, int k)
-{
-    return p->s->points.xs[i * (size_t)p->s->points.dim + (size_t)k];
-}
-
 static bool is_at(const plain *p, size_t i, int k, int j, uint64_t index)
 {
     const koksma__coordinate *c = &p->coordinates[j];
-    return fabs(x_at(p, i, k) - (double)koksma__numerator(c, index) / c->whole) <= p->s->tolerance;
+    return fabs(koksma__x(p->s, i, (size_t)k) - (double)koksma__numerator(c, index) / c->whole) <= p->s->tolerance;
 }
 
 static size_t probe_at(const plain *p, int probe)
@@ -64,19 +60,13 @@ static koksma_status look(plain *p, int k, int j)
     hit h = {.k = k, .j = j};
     for (int probe = 0; probe < PROBES; probe++) {
         const size_t i = probe_at(p, probe);
-        const uint64_t index = koksma__index_of(&p->coordinates[j], x_at(p, i, k), p->s->tolerance);
+        const uint64_t index = koksma__index_of(&p->coordinates[j], koksma__x(p->s, i, (size_t)k), p->s->tolerance);
         if (index >= MOST_INDEX || !is_at(p, i, k, j, index)) {
             return KOKSMA_OK;
         }
         h.indices[probe] = index;
     }
-    if (p->n_hits == p->capacity) {
-        const size_t more = 2 * p->capacity + 1024;
-        hit *hits = realloc(p->hits, more * sizeof *hits);
-        KOKSMA__REQUIRE_MEMORY(hits, more * sizeof *hits);
-        p->hits = hits;
-        p->capacity = more;
-    }
+    KOKSMA__TRY(koksma__reserve(&p->hits, &p->capacity, p->n_hits + 1, sizeof *p->hits));
     p->hits[p->n_hits++] = h;
     return KOKSMA_OK;
 }
@@ -115,7 +105,8 @@ static bool confirm(plain *p, int except)
 {
     const int lead = except == 0;
     for (size_t i = 0; i < p->s->points.n; i++) {
-        const uint64_t index = koksma__index_of(&p->coordinates[p->columns[lead]], x_at(p, i, lead), p->s->tolerance);
+        const uint64_t index =
+            koksma__index_of(&p->coordinates[p->columns[lead]], koksma__x(p->s, i, (size_t)lead), p->s->tolerance);
         if (index >= MOST_INDEX) {
             return false;
         }
@@ -175,8 +166,8 @@ static koksma_status say(plain *p, const order *o, int except, const char *linea
         in_order = in_order && (k == except || p->columns[k] == k);
         for (size_t i = 0; i < n && k != except; i++) {
             const koksma__coordinate *c = &p->coordinates[p->columns[k]];
-            difference =
-                fmax(difference, fabs(x_at(p, i, k) - (double)koksma__numerator(c, p->indices[i]) / c->whole));
+            difference = fmax(difference, fabs(koksma__x(p->s, i, (size_t)k) -
+                                               (double)koksma__numerator(c, p->indices[i]) / c->whole));
         }
     }
     char text[200] = "";
@@ -191,25 +182,16 @@ static koksma_status say(plain *p, const order *o, int except, const char *linea
         snprintf(text, sizeof text, "%zu of points %llu to %llu%s; ", n, (unsigned long long)o->least,
                  (unsigned long long)o->most, o->distinct ? "" : ", some repeated");
     }
-    koksma_identity *said =
-        koksma__identity(p->s,
-                         equal     ? "equal"
-                         : whole   ? "reordered"
-                         : o->gray ? "equal"
-                                   : "part",
-                         "%s%slargest difference %.3g in %zu points", linear, text, difference, n);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    said->first = equal || whole ? o->least : o->gray ? koksma__from_gray(o->first) : o->least;
-    snprintf(said->what, sizeof said->what, "%s%s%s", except < 0 ? "" : "Hammersley: ", p->source->what,
+    char what[160];
+    snprintf(what, sizeof what, "%s%s%s", except < 0 ? "" : "Hammersley: ", p->source->what,
              o->gray && !equal ? ", Gray order" : "");
-    snprintf(said->spec, sizeof said->spec, "%s",
-             in_order && except < 0 && (!o->gray || whole) ? p->source->spec : "");
     for (int k = 0; k < p->s->points.dim && (!in_order || except >= 0); k++) {
-        koksma__append(said->what, sizeof said->what, k == except ? "%s i/n" : "%s %d", k ? "" : ", coordinates",
-                       p->columns[k]);
+        koksma__append(what, sizeof what, k == except ? "%s i/n" : "%s %d", k ? "" : ", coordinates", p->columns[k]);
     }
-    p->s->named = true;
-    return KOKSMA_OK;
+    const char *relation = equal ? "equal" : whole ? "reordered" : o->gray ? "equal" : "part";
+    return koksma__say(p->s, relation, what, in_order && except < 0 && (!o->gray || whole) ? p->source->spec : "",
+                       o->gray && !equal && !whole ? koksma__from_gray(o->first) : o->least,
+                       "%s%slargest difference %.3g in %zu points", linear, text, difference, n);
 }
 
 /* Whether coordinate k is (index + offset) / N with a whole number N of n or nearly n; describes it. */
@@ -221,11 +203,12 @@ static bool is_linear(plain *p, int k, const order *o, char text[160])
         low = p->indices[i] < p->indices[low] ? i : low;
         high = p->indices[i] > p->indices[high] ? i : high;
     }
-    const double from = x_at(p, low, k), step = (x_at(p, high, k) - from) / (double)(o->most - o->least);
+    const double from = koksma__x(p->s, low, (size_t)k),
+                 step = (koksma__x(p->s, high, (size_t)k) - from) / (double)(o->most - o->least);
     const double whole = nearbyint(1 / step), offset = from * whole - (double)o->least;
     for (size_t i = 0; i < n; i++) {
         const double there = from + step * (double)(p->indices[i] - o->least);
-        if (!(fabs(x_at(p, i, k) - there) <= 2 * p->s->tolerance + 0x1p-50)) {
+        if (!(fabs(koksma__x(p->s, i, (size_t)k) - there) <= 2 * p->s->tolerance + 0x1p-50)) {
             return false;
         }
     }
@@ -302,19 +285,11 @@ static koksma_status compare_source(plain *p, preference wanted)
 static koksma_status compare_with(plain *p, const koksma__source *source, preference wanted)
 {
     const int dims = koksma__source_dims(source, p->s->points.dim);
-    int n = 0;
     p->source = source;
-    p->coordinates = calloc((size_t)dims, sizeof *p->coordinates);
-    koksma_status status = p->coordinates ? KOKSMA_OK : koksma__fail_memory((size_t)dims * sizeof *p->coordinates);
-    for (; !status && n < dims; n++) {
-        status = koksma__coordinate_init(source, p->s->points.dim, n, &p->coordinates[n]);
-    }
-    p->n_coordinates = n;
+    p->n_coordinates = dims;
+    koksma_status status = koksma__coordinates_init(source, p->s->points.dim, dims, &p->coordinates);
     status = status ? status : compare_source(p, wanted);
-    for (int j = 0; p->coordinates && j < n; j++) {
-        koksma__coordinate_fini(&p->coordinates[j]);
-    }
-    free(p->coordinates);
+    koksma__coordinates_fini(p->coordinates, dims);
     return status;
 }
 

@@ -22,11 +22,17 @@
 
 enum { LEAST_POINTS = 5, FIRSTS = 1 << 16, SHOWN = 12 };
 
+typedef struct keyed {
+    double x;
+    size_t i;
+} keyed;
+
 typedef struct progression {
     koksma__sample *s;
     size_t n, dim;
     const double *xs;
     double *increments, *scratch;
+    keyed *keys; /* the points, sorted by a coordinate */
     bool sorted;
 } progression;
 
@@ -143,18 +149,14 @@ static koksma_status say_lattice(progression *p, uint64_t points)
         append_shift(p, detail, sizeof detail);
     }
     const char *relation = !plain ? "lattice" : p->sorted || first ? "reordered" : whole ? "equal" : "part";
-    koksma_identity *said = koksma__identity(p->s, relation, "%s", detail);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    snprintf(said->what, sizeof said->what, "rank-1 lattice of %llu points%s", (unsigned long long)points,
+    char what[160], spec[KOKSMA_MAX_SPEC] = "";
+    snprintf(what, sizeof what, "rank-1 lattice of %llu points%s", (unsigned long long)points,
              p->sorted ? ", in another order" : "");
-    said->first = plain ? first : 0;
     if (plain && whole && p->dim <= 256) {
-        char spec[KOKSMA_MAX_SPEC] = "lattice-vector:";
+        snprintf(spec, sizeof spec, "lattice-vector:");
         append_multipliers(p, points, spec, sizeof spec, ":");
-        snprintf(said->spec, sizeof said->spec, "%s", strstr(spec, "...") ? "" : spec);
     }
-    p->s->named = true;
-    return KOKSMA_OK;
+    return koksma__say(p->s, relation, what, strstr(spec, "...") ? "" : spec, plain ? first : 0, "%s", detail);
 }
 
 /* ---- Recurrences ---- */
@@ -232,13 +234,8 @@ static koksma_status say_recurrence(progression *p)
         append_shift(p, detail, sizeof detail);
     }
     const bool ours = known && f == PLASTIC && first > 0 && offset >= .5;
-    koksma_identity *said = koksma__identity(p->s, ours ? "equal" : "recurrence", "%s", detail);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    said->first = ours ? first - 1 : first;
-    snprintf(said->spec, sizeof said->spec, "%s", ours ? "r-sequence" : "");
-    snprintf(said->what, sizeof said->what, "%s", known ? families[f] : "additive recurrence");
-    p->s->named = true;
-    return KOKSMA_OK;
+    return koksma__say(p->s, ours ? "equal" : "recurrence", known ? families[f] : "additive recurrence",
+                       ours ? "r-sequence" : "", ours ? first - 1 : first, "%s", detail);
 }
 
 static koksma_status look_in_order(progression *p)
@@ -257,43 +254,37 @@ static koksma_status look_in_order(progression *p)
 
 /* ---- Another order ---- */
 
-typedef struct keyed {
-    double x;
-    size_t i;
-} keyed;
-
 static int by_x(const void *a, const void *b)
 {
     const keyed *u = a, *v = b;
     return (u->x > v->x) - (u->x < v->x);
 }
 
+static void sort_by(progression *p, size_t k)
+{
+    for (size_t i = 0; i < p->n; i++) {
+        p->keys[i] = (keyed){x_at(p, i, k), i};
+    }
+    qsort(p->keys, p->n, sizeof *p->keys, by_x);
+}
+
 /* Sorts the points by the first coordinate that has n equidistant values, and looks again. */
 static koksma_status look_sorted(progression *p)
 {
-    const size_t bytes = p->n * sizeof(keyed);
-    keyed *keys = malloc(bytes);
-    KOKSMA__REQUIRE_MEMORY(keys, bytes);
     bool even = false;
     for (size_t k = 0; k < p->dim && !even; k++) {
-        for (size_t i = 0; i < p->n; i++) {
-            keys[i] = (keyed){x_at(p, i, k), i};
-        }
-        qsort(keys, p->n, sizeof *keys, by_x);
+        sort_by(p, k);
         even = true;
         for (size_t i = 1; i < p->n && even; i++) {
-            even = fabs(keys[i].x - keys[0].x - (double)i / (double)p->n) <= slack_at(p, 1);
+            even = fabs(p->keys[i].x - p->keys[0].x - (double)i / (double)p->n) <= slack_at(p, 1);
         }
     }
     for (size_t i = 0; i < p->n && even; i++) {
-        memcpy(p->scratch + i * p->dim, p->xs + keys[i].i * p->dim, p->dim * sizeof *p->scratch);
+        memcpy(p->scratch + i * p->dim, p->xs + p->keys[i].i * p->dim, p->dim * sizeof *p->scratch);
     }
-    free(keys);
     p->sorted = true;
     p->xs = p->scratch;
-    const koksma_status status = even ? look_in_order(p) : KOKSMA_OK;
-    p->xs = p->s->points.xs;
-    return status;
+    return even ? look_in_order(p) : KOKSMA_OK;
 }
 
 /* ---- Lattice sequences ---- */
@@ -334,12 +325,10 @@ static koksma_status look_radical(progression *p, bool gray)
     if (shifted) {
         append_shift(p, detail, sizeof detail);
     }
-    koksma_identity *said = koksma__identity(p->s, "lattice", "%s", detail);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    snprintf(said->what, sizeof said->what, "lattice sequence in base 2%s%s", gray ? ", Gray order" : "",
+    char what[160];
+    snprintf(what, sizeof what, "lattice sequence in base 2%s%s", gray ? ", Gray order" : "",
              shifted ? ", shifted modulo 1" : "");
-    p->s->named = true;
-    return KOKSMA_OK;
+    return koksma__say(p->s, "lattice", what, "", 0, "%s", detail);
 }
 
 /* ---- Grids ---- */
@@ -347,28 +336,17 @@ static koksma_status look_radical(progression *p, bool gray)
 /* Finds the equidistant values of a coordinate: their number, the first and the distance. */
 static bool find_values(progression *p, size_t k, size_t *count, double *first, double *step)
 {
-    keyed *keys = malloc(p->n * sizeof *keys);
-    if (!keys) {
-        return false;
-    }
-    for (size_t i = 0; i < p->n; i++) {
-        keys[i] = (keyed){x_at(p, i, k), i};
-    }
-    qsort(keys, p->n, sizeof *keys, by_x);
-    size_t distinct = 1;
+    sort_by(p, k);
+    *count = 1;
     for (size_t i = 1; i < p->n; i++) {
-        if (keys[i].x - keys[i - 1].x > slack_at(p, 1)) {
-            distinct++;
-        }
+        *count += p->keys[i].x - p->keys[i - 1].x > slack_at(p, 1);
     }
-    *count = distinct;
-    *first = keys[0].x;
-    *step = distinct > 1 ? (keys[p->n - 1].x - keys[0].x) / (double)(distinct - 1) : 1;
-    bool even = p->n % distinct == 0;
+    *first = p->keys[0].x;
+    *step = *count > 1 ? (p->keys[p->n - 1].x - *first) / (double)(*count - 1) : 1;
+    bool even = p->n % *count == 0;
     for (size_t i = 0; i < p->n && even; i++) {
-        even = fabs(keys[i].x - *first - *step * (double)(i / (p->n / distinct))) <= 2 * slack_at(p, 1);
+        even = fabs(p->keys[i].x - *first - *step * (double)(i / (p->n / *count))) <= 2 * slack_at(p, 1);
     }
-    free(keys);
     return even;
 }
 
@@ -376,9 +354,9 @@ static koksma_status look_grid(progression *p)
 {
     char detail[400] = "", what[160] = "grid of";
     size_t product = 1;
-    uint32_t *cells = calloc(p->n, sizeof *cells);
-    unsigned char *seen = calloc(p->n, 1);
-    bool grid = cells && seen;
+    uint32_t *cells = calloc(p->n, 2 * sizeof *cells), *seen = cells + p->n;
+    KOKSMA__REQUIRE_MEMORY(cells, p->n * 2 * sizeof *cells);
+    bool grid = true;
     for (size_t k = 0; k < p->dim && grid; k++) {
         size_t count = 1;
         double first = 0, step = 1;
@@ -392,23 +370,10 @@ static koksma_status look_grid(progression *p)
     }
     grid = grid && product == p->n;
     for (size_t i = 0; i < p->n && grid; i++) {
-        grid = cells[i] < p->n && !seen[cells[i]];
-        seen[cells[i] < p->n ? cells[i] : 0] = 1;
+        grid = cells[i] < p->n && !seen[cells[i]]++;
     }
-    const bool memory = cells && seen;
     free(cells);
-    free(seen);
-    if (!memory) {
-        return koksma__fail_memory(p->n * sizeof *cells);
-    }
-    if (!grid) {
-        return KOKSMA_OK;
-    }
-    koksma_identity *said = koksma__identity(p->s, "grid", "%s", detail);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    snprintf(said->what, sizeof said->what, "%s", what);
-    p->s->named = true;
-    return KOKSMA_OK;
+    return grid ? koksma__say(p->s, "grid", what, "", 0, "%s", detail) : KOKSMA_OK;
 }
 
 koksma_status koksma__identify_progression(koksma__sample *s)
@@ -419,8 +384,9 @@ koksma_status koksma__identify_progression(koksma__sample *s)
     }
     p.increments = malloc(p.dim * sizeof *p.increments);
     p.scratch = malloc(p.n * p.dim * sizeof *p.scratch);
-    koksma_status status =
-        p.increments && p.scratch ? koksma__ask(s->run) : koksma__fail_memory(p.n * p.dim * sizeof *p.scratch);
+    p.keys = malloc(p.n * sizeof *p.keys);
+    koksma_status status = p.increments && p.scratch && p.keys ? koksma__ask(s->run)
+                                                               : koksma__fail_memory(p.n * p.dim * sizeof *p.scratch);
     status = status ? status : look_in_order(&p);
     for (int gray = 0; gray < 2 && !status && !s->named; gray++) {
         status = look_radical(&p, gray);
@@ -433,5 +399,6 @@ koksma_status koksma__identify_progression(koksma__sample *s)
     }
     free(p.increments);
     free(p.scratch);
+    free(p.keys);
     return status;
 }

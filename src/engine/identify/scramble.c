@@ -38,7 +38,7 @@ typedef struct relating {
 
 static double x_of(const relating *r, size_t i)
 {
-    return r->s->points.xs[i * (size_t)r->s->points.dim + (size_t)r->k];
+    return koksma__x(r->s, i, (size_t)r->k);
 }
 
 /* Returns the first `level` digits of point i as a whole number; *open: whether the tolerance leaves them open. */
@@ -162,13 +162,13 @@ static koksma_status is_digit_permutation(const relating *r, bool *holds)
 
 enum { MOST_DIGITS = 64 };
 
-/* Row t belongs to digit t of the indices; its pivot is 1 there, and 0 in all other rows. */
+/* Row t belongs to digit t of the indices: the `digits` digits of an index, of which digit t is 1 and those of other rows
+   are 0, then the digits of its image. */
 typedef struct linear {
-    uint32_t index[MOST_DIGITS][MOST_DIGITS], image[MOST_DIGITS][MOST_DIGITS];
+    uint32_t rows[MOST_DIGITS][2 * MOST_DIGITS];
     bool has[MOST_DIGITS];
-    uint32_t anchor[MOST_DIGITS]; /* the digits of the anchor's index */
-    uint32_t start[MOST_DIGITS];  /* the digits of the anchor's coordinate */
-    int digits;                   /* of indices */
+    uint32_t anchor[2 * MOST_DIGITS]; /* the digits of the anchor's index and of its coordinate */
+    int digits, width, rank;          /* of indices; of a row; the number of rows */
 } linear;
 
 static void split(uint64_t v, uint32_t base, int count, uint32_t *digits)
@@ -198,44 +198,30 @@ static uint32_t inverse_of(uint32_t a, uint32_t base)
 static void extend(const relating *r, linear *l, size_t i)
 {
     const uint32_t base = r->c->base;
-    uint32_t index[MOST_DIGITS], image[MOST_DIGITS];
+    uint32_t v[2 * MOST_DIGITS];
     bool open;
-    split(r->indices[i], base, l->digits, index);
-    subtract(index, l->anchor, 1, base, l->digits);
-    int pivot = -1;
-    uint32_t times[MOST_DIGITS];
+    int pivot = 0;
+    split(r->indices[i], base, l->digits, v);
+    split(digits_of(r, i, r->levels, &open), base, r->levels, v + l->digits);
+    subtract(v, l->anchor, 1, base, l->width);
     for (int t = 0; t < l->digits; t++) {
-        times[t] = l->has[t] ? index[t] : 0;
-    }
-    for (int t = 0; t < l->digits; t++) {
-        if (times[t]) {
-            subtract(index, l->index[t], times[t], base, l->digits);
+        if (l->has[t] && v[t]) {
+            subtract(v, l->rows[t], v[t], base, l->width);
         }
     }
-    for (int t = 0; t < l->digits && pivot < 0; t++) {
-        pivot = index[t] ? t : -1;
+    while (pivot < l->digits && !v[pivot]) {
+        pivot++;
     }
-    if (pivot < 0) {
+    if (pivot == l->digits) {
         return;
     }
-    split(digits_of(r, i, r->levels, &open), base, r->levels, image);
-    subtract(image, l->start, 1, base, r->levels);
-    for (int t = 0; t < l->digits; t++) {
-        if (times[t]) {
-            subtract(image, l->image[t], times[t], base, r->levels);
-        }
-    }
-    const uint32_t scale = base - inverse_of(index[pivot], base); /* a <- a / pivot, as 0 - a * (-1 / pivot) */
-    memset(l->index[pivot], 0, sizeof l->index[pivot]);
-    memset(l->image[pivot], 0, sizeof l->image[pivot]);
-    subtract(l->index[pivot], index, scale, base, l->digits);
-    subtract(l->image[pivot], image, scale, base, r->levels);
+    memset(l->rows[pivot], 0, sizeof l->rows[pivot]);
+    subtract(l->rows[pivot], v, base - inverse_of(v[pivot], base), base, l->width); /* v / v[pivot] */
     l->has[pivot] = true;
+    l->rank++;
     for (int t = 0; t < l->digits; t++) {
-        const uint32_t other = l->has[t] && t != pivot ? l->index[t][pivot] : 0;
-        if (other) {
-            subtract(l->index[t], l->index[pivot], other, base, l->digits);
-            subtract(l->image[t], l->image[pivot], other, base, r->levels);
+        if (l->has[t] && t != pivot && l->rows[t][pivot]) {
+            subtract(l->rows[t], l->rows[pivot], l->rows[t][pivot], base, l->width);
         }
     }
 }
@@ -249,11 +235,11 @@ static bool predicts(const relating *r, const linear *l, size_t i)
     subtract(index, l->anchor, 1, base, l->digits);
     for (int t = 0; t < l->digits; t++) {
         for (int k = 0; index[t] && l->has[t] && k < r->levels; k++) {
-            image[k] += (uint64_t)index[t] * l->image[t][k];
+            image[k] += (uint64_t)index[t] * l->rows[t][l->digits + k];
         }
     }
     for (int k = r->levels - 1; k >= 0; k--) {
-        numerator = numerator * base + (image[k] + l->start[k]) % base;
+        numerator = numerator * base + (image[k] + l->anchor[l->digits + k]) % base;
     }
     return has_digits(r, i, numerator);
 }
@@ -274,8 +260,9 @@ static koksma_status is_linear(const relating *r, bool *holds)
             l->digits++;
         }
         split(r->indices[anchor], r->c->base, l->digits, l->anchor);
-        split(digits_of(r, anchor, r->levels, &open), r->c->base, r->levels, l->start);
-        for (size_t i = 0; i < r->n; i++) {
+        split(digits_of(r, anchor, r->levels, &open), r->c->base, r->levels, l->anchor + l->digits);
+        l->width = l->digits + r->levels;
+        for (size_t i = 0; i < r->n && l->rank < l->digits; i++) {
             extend(r, l, (anchor + i) % r->n);
         }
         size_t wrong = 0, at = 0;

@@ -33,11 +33,6 @@ static uint64_t index_at(const scan *c, uint64_t position)
     return c->gray ? koksma__gray(position) : position;
 }
 
-static double x_at(const scan *c, size_t i, int k)
-{
-    return c->s->points.xs[i * (size_t)c->s->points.dim + (size_t)k];
-}
-
 /* The number of leading digits that a and b have in common, of `known` ones. */
 static int common_digits(const koksma__coordinate *c, uint64_t a, uint64_t b, int known)
 {
@@ -57,7 +52,7 @@ static int common_digits(const koksma__coordinate *c, uint64_t a, uint64_t b, in
 /* Whether points 0 and i of the sample differ in coordinate k as do a and b, coordinates of the sequence. */
 static bool alike(const scan *c, const koksma__coordinate *coordinate, int k, size_t i, uint64_t a, uint64_t b)
 {
-    const double x = x_at(c, 0, k), y = x_at(c, i, k), tolerance = c->s->tolerance;
+    const double x = koksma__x(c->s, 0, (size_t)k), y = koksma__x(c->s, i, (size_t)k), tolerance = c->s->tolerance;
     if (!c->digits) {
         const double theirs = ((double)b - (double)a) / coordinate->whole;
         return fabs(koksma__turn(y - x - theirs)) <= 2 * tolerance + 0x1p-50;
@@ -96,7 +91,8 @@ static bool is_digitwise(const scan *c, const koksma__coordinate *coordinate, in
                 break;
             }
             const uint64_t unit = coordinate->powers[coordinate->digits - 1 - l], digit = theirs / unit;
-            const signed char ours = (signed char)((uint64_t)(x_at(c, i, k) * scale + margin) % coordinate->base);
+            const signed char ours =
+                (signed char)((uint64_t)(koksma__x(c->s, i, (size_t)k) * scale + margin) % coordinate->base);
             theirs %= unit;
             if (maps[l][digit] >= 0 && maps[l][digit] != ours) {
                 return false;
@@ -162,19 +158,16 @@ static koksma_status compare(scan *c, uint64_t first, bool *related)
     *related = true;
     c->s->scramble = (int)weakest;
     c->s->found->count = c->s->before;
-    koksma_identity *said = koksma__identity(c->s, names[weakest], "tested for all %zu points%s%s%s", c->s->points.n,
-                                             weakest == KOKSMA__SHIFTED             ? "; shift"
-                                             : weakest == KOKSMA__DIGITAL_SHIFT     ? "; shift"
-                                             : weakest == KOKSMA__DIGIT_PERMUTATION ? "; digits 0 1 .. become"
-                                                                                    : "",
-                                             weakest <= KOKSMA__LINEAR ? details : "",
-                                             weakest < KOKSMA__LINEAR && dim > SHOWN ? "; ..." : "");
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    said->first = first;
-    snprintf(said->what, sizeof said->what, "%s%s", c->source->what, c->gray ? ", Gray order" : "");
-    snprintf(said->spec, sizeof said->spec, "%s", c->gray ? "" : c->source->spec);
-    c->s->named = true;
-    return KOKSMA_OK;
+    static const char *const introductions[] = {[KOKSMA__SHIFTED] = "; shift",
+                                                [KOKSMA__DIGITAL_SHIFT] = "; shift",
+                                                [KOKSMA__DIGIT_PERMUTATION] = "; digits 0 1 .. become"};
+    char what[160];
+    snprintf(what, sizeof what, "%s%s", c->source->what, c->gray ? ", Gray order" : "");
+    return koksma__say(
+        c->s, names[weakest], what, c->gray ? "" : c->source->spec, first, "tested for all %zu points%s%s%s",
+        c->s->points.n,
+        weakest >= KOKSMA__SHIFTED && weakest <= KOKSMA__DIGIT_PERMUTATION ? introductions[weakest] : "",
+        weakest <= KOKSMA__LINEAR ? details : "", weakest < KOKSMA__LINEAR && dim > SHOWN ? "; ..." : "");
 }
 
 /* Tries all first points with the coordinates in order. */
@@ -218,25 +211,17 @@ koksma_status koksma__identify_scrambled(koksma__sample *s)
     if (s->points.n < KOKSMA__LEAST_SCRAMBLED) {
         return KOKSMA_OK;
     }
-    scan c = {.s = s, .coordinates = calloc((size_t)dim, sizeof *c.coordinates)};
-    c.indices = malloc(s->points.n * sizeof *c.indices);
-    koksma_status status =
-        c.coordinates && c.indices ? KOKSMA_OK : koksma__fail_memory(s->points.n * sizeof *c.indices);
+    scan c = {.s = s, .indices = malloc(s->points.n * sizeof *c.indices)};
+    KOKSMA__REQUIRE_MEMORY(c.indices, s->points.n * sizeof *c.indices);
+    koksma_status status = KOKSMA_OK;
     for (size_t i = 0; (source = koksma__source_at(i)) && !status; i++) {
-        if (dim > source->dims) {
-            continue;
-        }
-        c.source = source;
-        int count = 0;
-        for (; !status && count < dim; count++) {
-            status = koksma__coordinate_init(source, dim, count, &c.coordinates[count]);
-        }
-        status = status ? status : compare_source(&c);
-        for (int k = 0; k < count; k++) {
-            koksma__coordinate_fini(&c.coordinates[k]);
+        if (dim <= source->dims) {
+            c.source = source;
+            status = koksma__coordinates_init(source, dim, dim, &c.coordinates);
+            status = status ? status : compare_source(&c);
+            koksma__coordinates_fini(c.coordinates, dim);
         }
     }
-    free(c.coordinates);
     free(c.indices);
     return status;
 }

@@ -126,9 +126,10 @@ static void reduce_columns(koksma__coordinate *c)
     }
 }
 
-koksma_status koksma__coordinate_init(const koksma__source *source, int dim, int j, koksma__coordinate *c)
+/* Prepares coordinate j. */
+static koksma_status init(const koksma__source *source, int dim, int j, koksma__coordinate *c)
 {
-    *c = (koksma__coordinate){.source = source, .j = j, .base = 2, .digits = 32};
+    *c = (koksma__coordinate){.base = 2, .digits = 32};
     if (source->kind == RADICAL) {
         c->base = koksma__prime(j);
     }
@@ -162,10 +163,22 @@ koksma_status koksma__coordinate_init(const koksma__source *source, int dim, int
     return KOKSMA_OK;
 }
 
-void koksma__coordinate_fini(koksma__coordinate *c)
+koksma_status koksma__coordinates_init(const koksma__source *source, int dim, int count, koksma__coordinate **out)
 {
-    free(c->matrix);
-    c->matrix = NULL;
+    *out = calloc((size_t)count, sizeof **out);
+    KOKSMA__REQUIRE_MEMORY(*out, (size_t)count * sizeof **out);
+    for (int j = 0; j < count; j++) {
+        KOKSMA__TRY(init(source, dim, j, &(*out)[j]));
+    }
+    return KOKSMA_OK;
+}
+
+void koksma__coordinates_fini(koksma__coordinate *coordinates, int count)
+{
+    for (int j = 0; coordinates && j < count; j++) {
+        free(coordinates[j].matrix);
+    }
+    free(coordinates);
 }
 
 /* y = C a, digit by digit, where a are the digits of i. */

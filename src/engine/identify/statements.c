@@ -27,19 +27,21 @@ void koksma__append(char *text, size_t size, const char *format, ...)
     }
 }
 
-koksma_identity *koksma__identity(koksma__sample *s, const char *relation, const char *detail, ...)
+koksma_status koksma__say(koksma__sample *s, const char *relation, const char *what, const char *spec, uint64_t first,
+                          const char *detail, ...)
 {
     koksma_identities *all = s->found;
-    if (koksma__reserve(&all->items, &all->capacity, all->count + 1, sizeof *all->items)) {
-        return NULL;
-    }
+    KOKSMA__TRY(koksma__reserve(&all->items, &all->capacity, all->count + 1, sizeof *all->items));
     koksma_identity *said = &all->items[all->count++];
-    *said = (koksma_identity){.relation = relation};
+    *said = (koksma_identity){.relation = relation, .first = first};
+    snprintf(said->what, sizeof said->what, "%s", what);
+    snprintf(said->spec, sizeof said->spec, "%s", spec);
     va_list arguments;
     va_start(arguments, detail);
     koksma__vsnprintf(said->detail, sizeof said->detail, detail, arguments);
     va_end(arguments);
-    return said;
+    s->named = s->named || koksma_identity_names(said);
+    return KOKSMA_OK;
 }
 
 bool koksma_identity_names(const koksma_identity *identity)

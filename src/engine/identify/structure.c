@@ -4,7 +4,6 @@
  * behind nested scrambling and perhaps a shuffle of its indices; a Latin hypercube, or one point in each cell of a grid.
  */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,20 +14,6 @@
 #include "identify/identify.h"
 
 enum { LEAST_POINTS = 32 };
-
-static double x_at(const koksma__sample *s, size_t i, size_t k)
-{
-    return s->points.xs[i * (size_t)s->points.dim + k];
-}
-
-static koksma_status name(koksma__sample *s, const char *relation, const char *what, const char *detail)
-{
-    koksma_identity *said = koksma__identity(s, relation, "%s", detail);
-    KOKSMA__REQUIRE_MEMORY(said, sizeof *said);
-    snprintf(said->what, sizeof said->what, "%s", what);
-    s->named = true;
-    return KOKSMA_OK;
-}
 
 /* ---- Sequences behind scrambling and a shuffle ---- */
 
@@ -41,7 +26,7 @@ static bool is_stratified(const koksma__sample *s, int level, size_t offset, siz
     for (size_t k = 0; k < (size_t)s->points.dim; k++) {
         for (size_t i = 0; i < s->points.n; i++) {
             const size_t id = (k * s->points.n + i + block - offset) / block + k + 1;
-            size_t *cell = &seen[koksma__stratum(x_at(s, i, k), block)];
+            size_t *cell = &seen[koksma__stratum(koksma__x(s, i, k), block)];
             if (*cell == id) {
                 return false;
             }
@@ -66,14 +51,14 @@ static koksma_status look_at_blocks(koksma__sample *s)
         }
     }
     free(seen);
-    char detail[200];
-    snprintf(
-        detail, sizeof detail,
-        "each aligned block of 2^k points has one in each of 2^k intervals of every coordinate; the first block of "
-        "%zu points begins at point %zu",
+    if (!holds) {
+        return KOKSMA_OK;
+    }
+    return koksma__say(
+        s, "sequence", "sequence in base 2 of other matrices, scrambled or shuffled", "", 0,
+        "each aligned block of 2^k points has one in each of 2^k intervals of every coordinate; the first "
+        "block of %zu points begins at point %zu",
         (size_t)1 << (level - 1), offset);
-    return holds ? name(s, "sequence", "sequence in base 2 of other matrices, scrambled or shuffled", detail)
-                 : KOKSMA_OK;
 }
 
 /* ---- Strata ---- */
@@ -95,7 +80,7 @@ static koksma_status find_strata(const koksma__sample *s, bool *latin, bool *cen
     *latin = *centred = true;
     for (size_t k = 0; k < (size_t)p->dim && *latin; k++) {
         for (size_t i = 0; i < p->n; i++) {
-            sorted[i] = x_at(s, i, k);
+            sorted[i] = koksma__x(s, i, k);
         }
         qsort(sorted, p->n, sizeof *sorted, by_value);
         for (size_t i = 0; i < p->n && *latin; i++) {
@@ -114,11 +99,11 @@ static koksma_status look_at_strata(koksma__sample *s)
     bool latin = false, centred = false;
     KOKSMA__TRY(find_strata(s, &latin, &centred));
     if (latin) {
-        return name(s, "stratified", centred ? "centred Latin hypercube (n-rooks)" : "Latin hypercube (n-rooks)",
-                    "each of n intervals of every coordinate has one point");
+        return koksma__say(s, "stratified",
+                           centred ? "centred Latin hypercube (n-rooks)" : "Latin hypercube (n-rooks)", "", 0,
+                           "each of n intervals of every coordinate has one point");
     }
     size_t columns = (size_t)nearbyint(koksma__pow((double)n, 1. / (double)dim)), cells = 1;
-    char detail[120];
     for (size_t k = 0; k < dim && cells <= n; k++) {
         cells *= columns;
     }
@@ -131,14 +116,15 @@ static koksma_status look_at_strata(koksma__sample *s)
     for (size_t i = 0; i < n && each; i++) {
         size_t cell = 0;
         for (size_t k = 0; k < dim; k++) {
-            cell = cell * columns + koksma__stratum(x_at(s, i, k), columns);
+            cell = cell * columns + koksma__stratum(koksma__x(s, i, k), columns);
         }
         each = !seen[cell];
         seen[cell] = 1;
     }
     free(seen);
-    snprintf(detail, sizeof detail, "each of the %zu^%zu cells of a grid has one point", columns, dim);
-    return each ? name(s, "stratified", "jittered points", detail) : KOKSMA_OK;
+    return each ? koksma__say(s, "stratified", "jittered points", "", 0,
+                              "each of the %zu^%zu cells of a grid has one point", columns, dim)
+                : KOKSMA_OK;
 }
 
 koksma_status koksma__identify_structure(koksma__sample *s)
