@@ -33,60 +33,110 @@ const double koksma__import_identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 /* ---- Messages -------------------------------------------------------------------------------------------- */
 
-koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...)
+koksma_status koksma__import_try(koksma__import *im, void (*read)(void *reader), void *reader)
 {
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    koksma__vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    return koksma__fail(KOKSMA_MALFORMED, "%s:%lu: %s", place.file, place.line, text);
+    jmp_buf here, *const before = im->back;
+    im->back = &here;
+    im->status = KOKSMA_OK;
+    if (!setjmp(here)) {
+        read(reader);
+    }
+    im->back = before;
+    return im->status;
 }
 
-koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status)
+static _Noreturn void jump_back(koksma__text_place place, koksma_status status)
+{
+    place.im->status = status;
+    longjmp(*place.im->back, 1);
+}
+
+void koksma__import_pass(koksma__text_place place, koksma_status status)
+{
+    if (status) {
+        jump_back(place, status);
+    }
+}
+
+void koksma__import_check(koksma__text_place place, koksma_status status)
 {
     char where[KOKSMA__MAX_PATH + 32];
     snprintf(where, sizeof where, "%s:%lu", place.file, place.line);
-    return status ? koksma__fail_in(status, where) : KOKSMA_OK;
+    koksma__import_pass(place, status ? koksma__fail_in(status, where) : KOKSMA_OK);
 }
 
-koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place, uint64_t steps)
+static _Noreturn void fail(koksma__text_place place, const char *format, va_list arguments)
 {
-    im->steps += steps;
-    return im->steps <= MOST_STEPS
-               ? KOKSMA_OK
-               : koksma__import_fail(place,
-                                     "reading the scene up to here takes more than %d steps: objects, instances, "
-                                     "textures or texts repeat others, or parts are not read, too often",
-                                     MOST_STEPS);
+    char text[512];
+    koksma__vsnprintf(text, sizeof text, format, arguments);
+    jump_back(place, koksma__fail(KOKSMA_MALFORMED, "%s:%lu: %s", place.file, place.line, text));
 }
 
-static koksma_status add_unknown(koksma__import *im, koksma__text_place place, const char *format, va_list arguments)
+void koksma__import_fail(koksma__text_place place, const char *format, ...)
 {
-    koksma_scene *scene = im->scene;
+    va_list arguments;
+    va_start(arguments, format);
+    fail(place, format, arguments);
+}
+
+void koksma__import_fail_if(bool is_so, koksma__text_place place, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    if (is_so) {
+        fail(place, format, arguments);
+    }
+    va_end(arguments);
+}
+
+void *koksma__import_add(koksma__text_place place, void *array, size_t *n, size_t item_size)
+{
+    void *added = koksma__add_one(array, n, item_size);
+    koksma__import_pass(place, added ? KOKSMA_OK : KOKSMA_MEMORY);
+    return added;
+}
+
+void koksma__import_put_name(koksma__text_place place, koksma__names *names, const char *name, size_t index)
+{
+    koksma__import_pass(place, koksma__names_put(names, name, strlen(name), index));
+}
+
+void koksma__import_spend(koksma__text_place place, uint64_t steps)
+{
+    place.im->steps += steps;
+    if (place.im->steps > MOST_STEPS) {
+        koksma__import_fail(place,
+                            "reading the scene up to here takes more than %d steps: objects, instances, textures or "
+                            "texts repeat others, or parts are not read, too often",
+                            MOST_STEPS);
+    }
+}
+
+static void add_unknown(koksma__text_place place, const char *format, va_list arguments)
+{
+    koksma_scene *scene = place.im->scene;
     char text[256];
     koksma__vsnprintf(text, sizeof text, format, arguments);
-    KOKSMA__TRY(koksma__import_spend(im, place, 16 + scene->n_unknown / 4));
-    return koksma__unknown_put(&scene->unknown, &scene->n_unknown, place.file, place.line, text);
+    koksma__import_spend(place, 16 + scene->n_unknown / 4);
+    koksma__import_pass(place, koksma__unknown_put(&scene->unknown, &scene->n_unknown, place.file, place.line, text));
 }
 
-koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
+void koksma__import_unknown(koksma__text_place place, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    const koksma_status status = add_unknown(im, place, format, arguments);
+    add_unknown(place, format, arguments);
     va_end(arguments);
-    return status;
 }
 
-koksma_status koksma__import_unknown_if(bool is_so, koksma__import *im, koksma__text_place place, const char *format,
-                                        ...)
+void koksma__import_unknown_if(bool is_so, koksma__text_place place, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
-    const koksma_status status = is_so ? add_unknown(im, place, format, arguments) : KOKSMA_OK;
+    if (is_so) {
+        add_unknown(place, format, arguments);
+    }
     va_end(arguments);
-    return status;
 }
 
 bool koksma__import_is_full(const koksma__import *im)
@@ -94,16 +144,12 @@ bool koksma__import_is_full(const koksma__import *im)
     return im->scene->n_unknown == KOKSMA__MOST_UNKNOWN;
 }
 
-/* ---- Files ------------------------------------------------------------------------------------------------ */
-
-koksma_status koksma__import_path(koksma__import *im, koksma__text_place place, const char *name,
-                                  char out[KOKSMA__MAX_PATH])
+void koksma__import_path(koksma__text_place place, const char *name, char out[KOKSMA__MAX_PATH])
 {
+    const koksma__import *im = place.im;
     char other[KOKSMA__MAX_PATH];
-    KOKSMA__TRY(koksma__import_spend(im, place, 128)); /* calls of the system */
-    if (!*name) {
-        return koksma__import_fail(place, "the name of a file (filename) is missing or empty");
-    }
+    koksma__import_spend(place, 128); /* calls of the system */
+    koksma__import_fail_if(!*name, place, "the name of a file (filename) is missing or empty");
     bool fits = koksma__path_beside(im->path, name, out);
     for (size_t i = 0; fits && access(out, F_OK) && i < im->n_folders; i++) {
         fits = koksma__path_beside(im->folders[i], name, other);
@@ -111,19 +157,7 @@ koksma_status koksma__import_path(koksma__import *im, koksma__text_place place, 
             memcpy(out, other, sizeof other);
         }
     }
-    return fits ? KOKSMA_OK : koksma__import_fail(place, "the path is too long");
-}
-
-koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place, const char *name)
-{
-    char with_slash[KOKSMA__MAX_PATH];
-    if (im->n_folders == sizeof im->folders / sizeof *im->folders) {
-        return koksma__import_fail(place, "more than %zu paths", im->n_folders);
-    }
-    return (size_t)snprintf(with_slash, sizeof with_slash, "%s/", name) < sizeof with_slash &&
-                   koksma__path_beside(im->path, with_slash, im->folders[im->n_folders++])
-               ? KOKSMA_OK
-               : koksma__import_fail(place, "the path is too long");
+    koksma__import_fail_if(!fits, place, "the path is too long");
 }
 
 /* ---- Colours ---------------------------------------------------------------------------------------------- */
@@ -188,49 +222,40 @@ bool koksma__import_metal(const char *name, double rgb[3])
     return false;
 }
 
-void koksma__import_fresnel(const double eta[3], const double k[3], double rgb[3])
-{
-    for (int i = 0; i < 3; i++) {
-        const double n = fmin(fmax(eta[i], 0), FAR), absorbed = fmin(fmax(k[i], 0), FAR);
-        rgb[i] = ((n - 1) * (n - 1) + absorbed * absorbed) / ((n + 1) * (n + 1) + absorbed * absorbed);
-    }
-}
-
 /* ---- Materials -------------------------------------------------------------------------------------------- */
 
 /* Finishes the reading of an image: one that can't be decoded is left out with a warning, any other error is one of
    the scene. */
-static koksma_status leave_out(koksma__import *im, koksma__text_place place, koksma_status status)
+static void leave_out(koksma__text_place place, koksma_status status)
 {
-    return (status != KOKSMA_MALFORMED && status != KOKSMA_UNSUPPORTED) || koksma__is_refused()
-               ? koksma__import_fail_at(place, status)
-               : koksma__import_unknown(im, place, "%s; it is left out", koksma_error_text());
+    if (status && ((status != KOKSMA_MALFORMED && status != KOKSMA_UNSUPPORTED) || koksma__is_refused())) {
+        koksma__import_check(place, status);
+    }
+    koksma__import_unknown_if(status, place, "%s; it is left out", status ? koksma_error_text() : "");
 }
 
-/* Finds the image of a colour; *out is NULL if it is left out. */
-static koksma_status find_image(koksma__import *im, koksma__text_place place, const koksma__import_colour *c,
-                                koksma_image **out)
+/* The image of a colour; NULL if it is left out. */
+static koksma_image *find_image(koksma__text_place place, const koksma__import_colour *c)
 {
     koksma__image_use use = c->has_use ? c->use : KOKSMA__PLAIN_IMAGE;
-    use.upside_down = im->rows_down;
-    *out = NULL;
-    const koksma_status status = koksma__scene_image(im->scene, c->image, &use, out);
-    return status ? leave_out(im, place, status) : KOKSMA_OK;
+    koksma_image *image = NULL;
+    use.upside_down = place.im->rows_down;
+    leave_out(place, koksma__scene_image(place.im->scene, c->image, &use, &image));
+    return image;
 }
 
-koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
-                                  koksma__spectrum_use use, koksma__import_colour *c)
+void koksma__import_mean(koksma__text_place place, const char *what, koksma__spectrum_use use,
+                         koksma__import_colour *c)
 {
     if (*c->image) {
-        koksma_image *image;
-        KOKSMA__TRY(koksma__import_spend(im, place, im->scene->n_images / 8));
+        koksma__import_spend(place, place.im->scene->n_images / 8);
         c->use.border = false; /* the mean is that of the image */
-        KOKSMA__TRY(find_image(im, place, c, &image));
+        const koksma_image *image = find_image(place, c);
         *c->image = 0;
         if (!image) {
-            return KOKSMA_OK;
+            return;
         }
-        koksma__scene_image_mean(im->scene, image, use == KOKSMA__REFLECTANCE, c->rgb);
+        koksma__scene_image_mean(place.im->scene, image, use == KOKSMA__REFLECTANCE, c->rgb);
         for (int k = 0; k < 3; k++) {
             c->rgb[k] *= c->image_scale;
         }
@@ -240,9 +265,9 @@ koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, 
             c->rgb[k] = (c->rgb[k] + c->second[k]) / 2;
         }
     } else {
-        return KOKSMA_OK;
+        return;
     }
-    return koksma__import_unknown(im, place, "%s is replaced by its mean colour", what);
+    koksma__import_unknown(place, "%s is replaced by its mean colour", what);
 }
 
 /* Maps the unit square to the part of an image within its border of one pixel. */
@@ -259,8 +284,7 @@ static void map_within_border(const koksma_image *image, koksma__mapping *mappin
     mapping->moved = true;
 }
 
-static koksma_status set_colour(koksma__import *im, koksma__text_place place, const koksma__import_colour *from,
-                                koksma__material *m)
+static void set_colour(koksma__text_place place, const koksma__import_colour *from, koksma__material *m)
 {
     memcpy(m->albedo[0], from->rgb, sizeof from->rgb);
     memcpy(m->albedo[1], from->is_checker ? from->second : from->rgb, sizeof from->rgb);
@@ -269,27 +293,27 @@ static koksma_status set_colour(koksma__import *im, koksma__text_place place, co
     m->checker = from->is_checker;
     m->period = from->period;
     m->mapping = from->is_checker ? from->mapping : m->mapping;
-    KOKSMA__TRY(*from->image ? find_image(im, place, from, &m->image) : KOKSMA_OK);
+    m->image = *from->image ? find_image(place, from) : NULL;
     if (m->image) {
         m->mapping = from->mapping;
         if (from->has_use && from->use.border) {
             map_within_border(m->image, &m->mapping);
         }
-        koksma__material_mean(im->scene, m);
+        koksma__material_mean(place.im->scene, m);
     }
-    return koksma__import_unknown_if(m->image && from->image_scale != 1, im, place, "an image's scale is ignored");
+    koksma__import_unknown_if(m->image && from->image_scale != 1, place, "an image's scale is ignored");
 }
 
 /* Replaces a coated material by a Phong lobe, which has a dielectric's reflectance along the normal, over a Lambert
    surface, which reflects part of the remaining light. With an image as the colour, only the Lambert surface is
    set. */
-static koksma_status set_coated(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
-                                koksma__material *m)
+static void set_coated(koksma__text_place place, const koksma__import_material *from, koksma__material *m)
 {
-    KOKSMA__TRY(set_colour(im, place, &from->colour, m));
+    set_colour(place, &from->colour, m);
     if (m->image) {
         m->bsdf = &koksma__bsdf_lambert;
-        return koksma__import_unknown(im, place, "a coat over an image is ignored");
+        koksma__import_unknown(place, "a coat over an image is ignored");
+        return;
     }
     const double ior = fmin(fmax(from->ior, 0.1), 10), ratio = (ior - 1) / (ior + 1), share = ratio * ratio;
     double *reflectance = koksma__material_value(m, "reflectance");
@@ -298,7 +322,7 @@ static koksma_status set_coated(koksma__import *im, koksma__text_place place, co
     for (int k = 0; k < 6; k++) {
         m->albedo[k / 3][k % 3] *= 1 - share;
     }
-    return koksma__import_unknown(im, place, "a coated surface is replaced by Lambert and a Phong lobe");
+    koksma__import_unknown(place, "a coated surface is replaced by Lambert and a Phong lobe");
 }
 
 static bool same_mapping(const koksma__mapping *a, const koksma__mapping *b)
@@ -323,88 +347,77 @@ static bool same_material(const koksma__material *a, const koksma__material *b)
            a->see_through == b->see_through && !memcmp(&a->alpha, &b->alpha, sizeof a->alpha);
 }
 
-/* Sets *out to the material of the scene that is equal to `material`, but for its name, which is added if there is none
-   yet: files repeat materials for each shape. Error: MALFORMED (too many). */
-static koksma_status keep_material(koksma__import *im, koksma__text_place place, const koksma__material *material,
-                                   int *out)
+/* The material of the scene that is equal to `material`, but for its name, which is added if there is none yet: files
+   repeat materials for each shape. */
+static int keep_material(koksma__text_place place, const koksma__material *material)
 {
-    koksma_scene *scene = im->scene;
-    KOKSMA__TRY(koksma__import_spend(im, place, scene->n_materials / 8));
+    koksma_scene *scene = place.im->scene;
+    koksma__import_spend(place, scene->n_materials / 8);
     for (size_t i = 0; i < scene->n_materials; i++) {
         if (same_material(&scene->materials[i], material)) {
-            *out = (int)i;
-            return KOKSMA_OK;
+            return (int)i;
         }
     }
-    if (scene->n_materials == KOKSMA__MAX_MATERIALS) {
-        return koksma__import_fail(place, "more than %d different materials", KOKSMA__MAX_MATERIALS);
-    }
+    koksma__import_fail_if(scene->n_materials == KOKSMA__MAX_MATERIALS, place, "more than %d different materials",
+                           KOKSMA__MAX_MATERIALS);
     koksma__material *to = &scene->materials[scene->n_materials];
     *to = *material;
-    *out = (int)scene->n_materials++;
-    snprintf(to->name, sizeof to->name, "%d", *out);
-    return KOKSMA_OK;
+    snprintf(to->name, sizeof to->name, "%zu", scene->n_materials);
+    return (int)scene->n_materials++;
 }
 
-static void set_conductor(const koksma__import_material *from, koksma__material *m)
+static void set_roughness(const koksma__import_material *from, double least, koksma__material *m)
 {
-    m->bsdf = from->alpha < 1e-6 ? &koksma__bsdf_conductor : &koksma__bsdf_rough_conductor;
-    for (int i = 0; i < 3; i++) {
+    *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), least), 1);
+}
+
+/* Sets a metal, by its index of refraction or by Schlick's approximation. */
+static void set_metal(const koksma__import_material *from, koksma__material *m)
+{
+    static const koksma__bsdf *const kinds[2][2] = {{&koksma__bsdf_ggx, &koksma__bsdf_mirror},
+                                                    {&koksma__bsdf_rough_conductor, &koksma__bsdf_conductor}};
+    const bool smooth = from->alpha < 1e-6;
+    m->bsdf = kinds[from->has_index][smooth];
+    for (int i = 0; i < 3 && from->has_index; i++) {
         koksma__material_value(m, "eta")[i] = fmin(fmax(from->eta[i], 0), FAR);
         koksma__material_value(m, "k")[i] = fmin(fmax(from->k[i], 0), FAR);
     }
-    memcpy(koksma__material_value(m, "tint"), from->colour.rgb, sizeof from->colour.rgb);
-    clamp_albedo(koksma__material_value(m, "tint"));
-    if (m->bsdf == &koksma__bsdf_rough_conductor) {
-        *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
+    double *colour = koksma__material_value(m, from->has_index ? "tint" : "reflectance");
+    memcpy(colour, from->colour.rgb, sizeof from->colour.rgb);
+    clamp_albedo(colour);
+    if (!smooth) {
+        set_roughness(from, 1e-3, m);
     }
 }
 
-/* Sets a material of the nearest kind. */
-static koksma_status set_material(koksma__import *im, koksma__text_place place, const koksma__import_material *from,
-                                  koksma__material *m)
+static void set_glass(const koksma__import_material *from, koksma__material *m)
 {
-    static const koksma__bsdf *const kinds[] = {[KOKSMA__MATTE] = &koksma__bsdf_lambert,
-                                                [KOKSMA__METAL] = &koksma__bsdf_ggx,
-                                                [KOKSMA__GLASS] = &koksma__bsdf_dielectric,
-                                                [KOKSMA__COATED] = &koksma__bsdf_utah};
-    if (from->kind == KOKSMA__METAL && from->has_index) {
-        set_conductor(from, m);
-        return KOKSMA_OK;
+    m->bsdf = from->alpha > 1e-6 ? &koksma__bsdf_rough_dielectric : &koksma__bsdf_dielectric;
+    double *tint = koksma__material_value(m, "tint");
+    tint[0] = tint[1] = tint[2] = 1;
+    *koksma__material_value(m, "ior") = fmin(fmax(from->ior, 1.0001), 10);
+    if (from->alpha > 1e-6) {
+        set_roughness(from, 0.03, m);
     }
-    m->bsdf = from->kind == KOKSMA__METAL && from->alpha < 1e-6   ? &koksma__bsdf_mirror
-              : from->kind == KOKSMA__GLASS && from->alpha > 1e-6 ? &koksma__bsdf_rough_dielectric
-                                                                  : kinds[from->kind];
+}
+
+int koksma__import_material_of(koksma__text_place place, const koksma__import_material *from)
+{
+    koksma__material m = {.bsdf = from->kind == KOKSMA__COATED ? &koksma__bsdf_utah : &koksma__bsdf_lambert};
     switch (from->kind) {
     case KOKSMA__METAL:
-        memcpy(koksma__material_value(m, "reflectance"), from->colour.rgb, sizeof from->colour.rgb);
-        clamp_albedo(koksma__material_value(m, "reflectance"));
-        if (m->bsdf == &koksma__bsdf_ggx) {
-            *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 1e-3), 1);
-        }
-        return KOKSMA_OK;
-    case KOKSMA__GLASS: {
-        double *tint = koksma__material_value(m, "tint");
-        tint[0] = tint[1] = tint[2] = 1;
-        *koksma__material_value(m, "ior") = fmin(fmax(from->ior, 1.0001), 10);
-        if (m->bsdf == &koksma__bsdf_rough_dielectric) {
-            *koksma__material_value(m, "roughness") = fmin(fmax(sqrt(from->alpha), 0.03), 1);
-        }
-        return KOKSMA_OK;
-    }
+        set_metal(from, &m);
+        break;
+    case KOKSMA__GLASS:
+        set_glass(from, &m);
+        break;
     case KOKSMA__COATED:
-        return set_coated(im, place, from, m);
+        set_coated(place, from, &m);
+        break;
     default:
-        return set_colour(im, place, &from->colour, m);
+        set_colour(place, &from->colour, &m);
     }
-}
-
-koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
-                                          const koksma__import_material *from, int *out)
-{
-    koksma__material m = {0};
-    KOKSMA__TRY(set_material(im, place, from, &m));
-    return keep_material(im, place, &m, out);
+    return keep_material(place, &m);
 }
 
 /* ---- Mixtures ---------------------------------------------------------------------------------------------- */
@@ -471,91 +484,75 @@ static void use_as_number(const koksma__import *im, koksma__import_colour *c)
     }
 }
 
-/* Makes the Lambert surface whose albedo goes from that of `first` to that of `second` as the image or checkerboard
-   `amount` goes from 0 to 1. */
-static koksma_status mix_albedos(koksma__import *im, koksma__text_place place, const koksma__material *first,
-                                 const koksma__material *second, const koksma__import_colour *amount, int *out)
+int koksma__import_mix(koksma__text_place place, int first, int second, koksma__import_colour *amount)
 {
-    koksma__material mixed = {.bsdf = &koksma__bsdf_lambert};
-    koksma__import_colour c = *amount;
-    use_as_number(im, &c);
-    koksma__import_between(&c, first->albedo[0], second->albedo[0]);
-    KOKSMA__TRY(set_colour(im, place, &c, &mixed));
-    return keep_material(im, place, &mixed, out);
-}
-
-koksma_status koksma__import_mix(koksma__import *im, koksma__text_place place, int first, int second,
-                                 koksma__import_colour *amount, int *out)
-{
-    const koksma__material *all = im->scene->materials;
+    const koksma__material *all = place.im->scene->materials;
     const bool both = first >= 0 && second >= 0, varies = *amount->image || amount->is_checker;
-    *out = first;
+    koksma__material mixed = {.bsdf = &koksma__bsdf_lambert};
     if (first == second) {
-        return KOKSMA_OK;
+        return first;
     }
     if (both && varies && is_plain(&all[first]) && is_plain(&all[second])) {
-        return mix_albedos(im, place, &all[first], &all[second], amount, out);
+        /* the surface whose albedo goes from the first to the second as the amount goes from 0 to 1 */
+        koksma__import_colour c = *amount;
+        use_as_number(place.im, &c);
+        koksma__import_between(&c, all[first].albedo[0], all[second].albedo[0]);
+        set_colour(place, &c, &mixed);
+        return keep_material(place, &mixed);
     }
-    KOKSMA__TRY(koksma__import_mean(im, place, "the amount of a mix", KOKSMA__REFLECTANCE, amount));
+    koksma__import_mean(place, "the amount of a mix", KOKSMA__REFLECTANCE, amount);
     const double share = amount->rgb[0];
     if (share <= 0 || share >= 1) {
-        *out = share <= 0 ? first : second;
-        return KOKSMA_OK;
+        return share <= 0 ? first : second;
     }
     if (both) {
-        koksma__material mixed = all[first];
+        mixed = all[first];
         if (blend_materials(&mixed, &all[second], share)) {
-            return keep_material(im, place, &mixed, out);
+            return keep_material(place, &mixed);
         }
     }
-    *out = share < 0.5 ? first : second;
-    return koksma__import_unknown(im, place,
-                                  "a mix of different materials is replaced by the one with the larger share");
+    koksma__import_unknown(place, "a mix of different materials is replaced by the one with the larger share");
+    return share < 0.5 ? first : second;
 }
 
-koksma_status koksma__import_mask(koksma__import *im, koksma__text_place place, koksma__import_colour *opacity,
-                                  int *material)
+int koksma__import_mask(koksma__text_place place, int material, koksma__import_colour *opacity)
 {
-    if (*material < 0) {
-        return KOKSMA_OK;
+    if (material < 0) {
+        return -1;
     }
-    koksma__material m = im->scene->materials[*material];
+    koksma__material m = place.im->scene->materials[material];
     koksma__map *map = &m.maps[KOKSMA__MAP_ALPHA];
     if (opacity->is_checker || map->image) {
-        KOKSMA__TRY(koksma__import_mean(im, place, "an opacity", KOKSMA__REFLECTANCE, opacity));
+        koksma__import_mean(place, "an opacity", KOKSMA__REFLECTANCE, opacity);
     }
     m.alpha = (m.see_through ? m.alpha : 1) * fmin(fmax(opacity->rgb[0], 0), 1);
     if (*opacity->image) {
         m.alpha = 1;
-        use_as_number(im, opacity);
-        KOKSMA__TRY(find_image(im, place, opacity, &map->image));
+        use_as_number(place.im, opacity);
+        map->image = find_image(place, opacity);
         map->mapping = opacity->mapping;
     }
     m.see_through = m.alpha < 1 || map->image;
-    if (m.alpha <= 0) {
-        *material = -1;
-        return KOKSMA_OK;
-    }
-    return keep_material(im, place, &m, material);
+    return m.alpha <= 0 ? -1 : keep_material(place, &m);
 }
 
-koksma_status koksma__import_glow(koksma__import *im, koksma__text_place place, const koksma__import_colour *radiance,
-                                  koksma__import_surface *surface)
+void koksma__import_glow(koksma__text_place place, const koksma__import_colour *radiance,
+                         koksma__import_surface *surface)
 {
     koksma__material m = {.bsdf = &koksma__bsdf_lambert};
     if (!*radiance->image) {
-        return KOKSMA_OK;
+        return;
     }
     if (surface->material >= 0) {
-        m = im->scene->materials[surface->material];
+        m = place.im->scene->materials[surface->material];
     }
     koksma__map *map = &m.maps[KOKSMA__MAP_EMISSION];
-    KOKSMA__TRY(find_image(im, place, radiance, &map->image));
+    map->image = find_image(place, radiance);
     map->mapping = radiance->mapping;
     for (int k = 0; k < 3; k++) {
         surface->radiance[k] = map->image ? radiance->image_scale : radiance->rgb[k];
     }
-    return map->image ? keep_material(im, place, &m, &surface->material) : KOKSMA_OK;
+    surface->material = map->image ? keep_material(place, &m) : surface->material;
 }
 
 /* ---- Lights ------------------------------------------------------------------------------------------------ */
@@ -569,35 +566,28 @@ static bool has_environment(const koksma_scene *scene)
     return found;
 }
 
-koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light)
+void koksma__import_light(koksma__text_place place, const koksma__light *light)
 {
     koksma__light *to = NULL;
     for (int k = 0; k < 3; k++) {
-        if (!(fabs(light->centre[k]) <= FAR)) {
-            return koksma__import_fail(place, "a light beyond 1e6");
-        }
+        koksma__import_fail_if(!(fabs(light->centre[k]) <= FAR), place, "a light beyond 1e6");
     }
-    if (light->kind == &koksma__light_environment && has_environment(im->scene)) {
-        return koksma__import_unknown(im, place, "the scene has a second environment, which is left out");
+    if (light->kind == &koksma__light_environment && has_environment(place.im->scene)) {
+        koksma__import_unknown(place, "the scene has a second environment, which is left out");
+        return;
     }
-    const koksma_status status = koksma__scene_add_light(im->scene, &to);
-    if (status) {
-        return koksma__import_fail_at(place, status);
-    }
+    koksma__import_check(place, koksma__scene_add_light(place.im->scene, &to));
     *to = *light;
-    koksma__import_radiance(im, to->radiance);
-    return KOKSMA_OK;
+    koksma__import_radiance(place.im, to->radiance);
 }
 
 /* Checks the matrix by which an environment is turned, or its inverse: with entries that are not too large, except for
    those that move, directions keep a length that is finite and above 0. */
-static koksma_status check_turn(koksma__text_place place, const double matrix[12])
+static koksma_status check_turn(const double matrix[12])
 {
     for (int i = 0; i < 12; i++) {
-        if (i % 4 < 3 && !(fabs(matrix[i]) <= 1e9)) {
-            return koksma__import_fail(place,
-                                       "the matrix of an environment, or its inverse, has an entry beyond 1e9");
-        }
+        KOKSMA__FAIL_IF(i % 4 < 3 && !(fabs(matrix[i]) <= 1e9), KOKSMA_MALFORMED,
+                        "the matrix of an environment, or its inverse, has an entry beyond 1e9");
     }
     return KOKSMA_OK;
 }
@@ -616,59 +606,62 @@ static double map_illuminance(const koksma_image *image)
     return 2 * M_PI * sum / (double)n;
 }
 
-koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, double illuminance,
-                                 const double scale[3], const double matrix[12])
+/* Turns an environment by a matrix and keeps it as that of a light. */
+static koksma_status turn_sky(koksma__import *im, const koksma_image *image, const double matrix[12],
+                              koksma_image **out)
+{
+    koksma_image turned = {0};
+    double inverse[12];
+    KOKSMA__FAIL_IF(!koksma__import_invert(matrix, inverse), KOKSMA_MALFORMED,
+                    "the matrix of an environment has no inverse");
+    KOKSMA__TRY(check_turn(matrix));
+    KOKSMA__TRY(check_turn(inverse));
+    koksma_status status = koksma__sky_turn(image, !im->rows_down, inverse, &turned);
+    status = status ? status : koksma__scene_image_keep(im->scene, &turned, out);
+    koksma_image_fini(&turned);
+    return status;
+}
+
+void koksma__import_sky(koksma__text_place place, const char *name, double illuminance, const double scale[3],
+                        const double matrix[12])
 {
     char full[KOKSMA__MAX_PATH];
-    koksma_image image = {0}, turned = {0};
-    double inverse[12];
+    koksma_image image = {0};
     koksma__light light = {.kind = &koksma__light_environment, .visible = true};
-    if (has_environment(im->scene)) { /* the image of a second one, which may be large, is not read */
-        return koksma__import_light(im, place, &light);
+    if (has_environment(place.im->scene)) { /* the image of a second one, which may be large, is not read */
+        koksma__import_light(place, &light);
+        return;
     }
-    KOKSMA__TRY(koksma__import_path(im, place, name, full));
+    koksma__import_path(place, name, full);
     memcpy(light.radiance, scale, sizeof light.radiance);
     koksma_status status = koksma__image_read(full, KOKSMA__FILE_TEXTURE, KOKSMA__BY_FILE, &image);
     status = status ? status : koksma__image_check(&image, full);
-    KOKSMA__TRY(koksma__import_unknown_if(!status && *koksma_image_remark(), im, place, "%s", koksma_image_remark()));
-    if (status) {
-        koksma_image_fini(&image);
-        KOKSMA__TRY(leave_out(im, place, status));
-        return koksma__import_light(im, place, &light);
+    if (!status) {
+        const double own = illuminance > 0 ? map_illuminance(&image) : 0;
+        for (int k = 0; own > 0 && k < 3; k++) {
+            light.radiance[k] *= illuminance / own;
+        }
     }
-    const double own = illuminance > 0 ? map_illuminance(&image) : 0;
-    for (int k = 0; own > 0 && k < 3; k++) {
-        light.radiance[k] *= illuminance / own;
-    }
-    status = koksma__import_invert(matrix, inverse)
-                 ? check_turn(place, matrix)
-                 : koksma__import_fail(place, "the matrix of an environment has no inverse");
-    status = status ? status : check_turn(place, inverse);
-    status =
-        status ? status : koksma__import_fail_at(place, koksma__sky_turn(&image, !im->rows_down, inverse, &turned));
-    status =
-        status ? status : koksma__import_fail_at(place, koksma__scene_image_keep(im->scene, &turned, &light.image));
+    const koksma_status turned = status ? KOKSMA_OK : turn_sky(place.im, &image, matrix, &light.image);
     koksma_image_fini(&image);
-    koksma_image_fini(&turned);
-    return status ? status : koksma__import_light(im, place, &light);
+    leave_out(place, status);
+    koksma__import_unknown_if(!status && *koksma_image_remark(), place, "%s", koksma_image_remark());
+    koksma__import_check(place, turned);
+    koksma__import_light(place, &light);
 }
 
-koksma_status koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg,
-                                  double outer_deg, int falloff, koksma__light *light)
+void koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg, double outer_deg,
+                         int falloff, koksma__light *light)
 {
     light->kind = &koksma__light_spot;
     memcpy(light->normal, direction, sizeof light->normal);
-    if (!koksma__import_normalise(light->normal)) {
-        return koksma__import_fail(place, "a spot without a direction");
-    }
-    if (!(outer_deg > 0 && outer_deg <= 90)) {
-        return koksma__import_fail(place, "the angle of a spot's cone must be above 0 and at most 90 degrees");
-    }
+    koksma__import_fail_if(!koksma__import_normalise(light->normal), place, "a spot without a direction");
+    koksma__import_fail_if(!(outer_deg > 0 && outer_deg <= 90), place,
+                           "the angle of a spot's cone must be above 0 and at most 90 degrees");
     inner_deg = fmin(fmax(inner_deg, 0), outer_deg);
     light->values[0] = outer_deg; /* angle_deg and edge */
     light->values[1] = 1 - inner_deg / outer_deg;
     light->values[2] = falloff;
-    return KOKSMA_OK;
 }
 
 bool koksma__import_normalise(double v[3])
@@ -724,29 +717,24 @@ bool koksma__import_rotation(double angle_deg, const double axis[3], double out[
     return true;
 }
 
-koksma_status koksma__import_look_at(koksma__text_place place, const char *name, const double eye[3],
-                                     const double target[3], const double up[3], double m[12])
+void koksma__import_look_at(koksma__text_place place, const char *name, const double eye[3], const double target[3],
+                            const double up[3], double m[12])
 {
     double ahead[3], across[3], over[3];
     koksma__subtract(target, eye, ahead);
-    if (!koksma__import_normalise(ahead)) {
-        return koksma__import_fail(place, "%s: there is no direction from the eye to its target", name);
-    }
+    koksma__import_fail_if(!koksma__import_normalise(ahead), place,
+                           "%s: there is no direction from the eye to its target", name);
     koksma__cross(up, ahead, across);
-    if (!koksma__import_normalise(across)) {
-        return koksma__import_fail(place, "%s: up is along the line of sight", name);
-    }
+    koksma__import_fail_if(!koksma__import_normalise(across), place, "%s: up is along the line of sight", name);
     koksma__cross(ahead, across, over);
     for (int k = 0; k < 3; k++) {
         m[4 * k] = across[k], m[4 * k + 1] = over[k], m[4 * k + 2] = ahead[k], m[4 * k + 3] = eye[k];
     }
-    return KOKSMA_OK;
 }
 
-koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double m[12], double right,
-                                    const koksma__camera *lens)
+void koksma__import_camera(koksma__text_place place, const double m[12], double right, const koksma__camera *lens)
 {
-    koksma__camera *c = &im->scene->camera;
+    koksma__camera *c = &place.im->scene->camera;
     *c = *lens;
     c->height *= sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
     c->lens_map = koksma_warp_find("concentric-disk");
@@ -756,23 +744,17 @@ koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place
         c->right[k] = right * m[4 * k];
         c->down[k] = -m[4 * k + 1];
         c->forward[k] = m[4 * k + 2];
-        if (!(fabs(c->eye[k]) <= FAR)) {
-            return koksma__import_fail(place, "the camera's position is beyond 1e6");
-        }
+        koksma__import_fail_if(!(fabs(c->eye[k]) <= FAR), place, "the camera's position is beyond 1e6");
     }
-    if (!koksma__import_normalise(c->right) || !koksma__import_normalise(c->down) ||
-        !koksma__import_normalise(c->forward)) {
-        return koksma__import_fail(place, "the camera's matrix has no inverse");
-    }
+    koksma__import_fail_if(!koksma__import_normalise(c->right) || !koksma__import_normalise(c->down) ||
+                               !koksma__import_normalise(c->forward),
+                           place, "the camera's matrix has no inverse");
     c->by_degrees = true;
-    if (lens->height > 0 && !(c->height > TINY && c->height <= FAR)) {
-        return koksma__import_fail(place, "the height that the camera shows must be 1e-6 to 1e6");
-    }
-    if (!(lens->height > 0) && !(c->fov_rad >= 1e-4 && c->fov_rad < 3.13)) {
-        return koksma__import_fail(place, "the camera's angle of view must be above 0 and below 180 degrees");
-    }
-    if (!(c->lens_radius >= 0 && c->lens_radius <= FAR && c->focus_distance > TINY && c->focus_distance <= FAR)) {
-        return koksma__import_fail(place, "the lens's radius must be 0 to 1e6, its focus distance 1e-6 to 1e6");
-    }
-    return KOKSMA_OK;
+    koksma__import_fail_if(lens->height > 0 && !(c->height > TINY && c->height <= FAR), place,
+                           "the height that the camera shows must be 1e-6 to 1e6");
+    koksma__import_fail_if(!(lens->height > 0) && !(c->fov_rad >= 1e-4 && c->fov_rad < 3.13), place,
+                           "the camera's angle of view must be above 0 and below 180 degrees");
+    koksma__import_fail_if(
+        !(c->lens_radius >= 0 && c->lens_radius <= FAR && c->focus_distance > TINY && c->focus_distance <= FAR),
+        place, "the lens's radius must be 0 to 1e6, its focus distance 1e-6 to 1e6");
 }

@@ -3,9 +3,15 @@
  * Functions and types that the readers of other renderers' scenes (pbrt.c, mitsuba.c) share: a scene to which
  * surfaces, lights and a camera are added with their matrices, and the list of unsupported features and their
  * replacements. Matrices are three rows of four, as everywhere (meshes/mesh.h).
+ *
+ * A reader of a text whose every word can be wrong fails nearly everywhere. So its functions return no status: a failure
+ * sets the error's text and jumps back to koksma__import_try(). What is allocated belongs to the import, or to the
+ * reader's own struct, from the moment when it is, and is freed by whoever called koksma__import_try().
  */
 #ifndef KOKSMA_SCENE_IMPORT_H
 #define KOKSMA_SCENE_IMPORT_H
+
+#include <setjmp.h>
 
 #include "core/files.h"
 #include "meshes/mesh_file.h"
@@ -43,8 +49,9 @@ void koksma__sampled_spectrum_colour(const koksma__sampled_spectrum *s, koksma__
 
 /* ---- Types ----------------------------------------------------------------------------------------------------------- */
 
-/* A position in a text, for messages. */
+/* A position in a text of a scene that is read, for messages. */
 typedef struct koksma__text_place {
+    struct koksma__import *im;
     const char *file;
     unsigned long line;
 } koksma__text_place;
@@ -61,6 +68,11 @@ typedef enum koksma__form {
     KOKSMA__N_BASIC_FORMS
 } koksma__form;
 
+typedef struct koksma__open_text {
+    char *bytes;
+    size_t size;
+} koksma__open_text;
+
 typedef struct koksma__import {
     koksma_scene *scene;
     const char *path;                  /* path of the scene's own file */
@@ -75,6 +87,11 @@ typedef struct koksma__import {
     koksma__mesh_file *packed;        /* the .serialized files */
     koksma__names packed_names;
     size_t n_twins, n_packed, kept; /* kept: the vertices and triangles of `packed` together */
+    koksma__mesh mesh;              /* the one that is being made */
+    koksma__open_text *texts;       /* those that are being read, of which each includes the next one */
+    size_t n_texts;
+    jmp_buf *back; /* where a failure ends reading, with this status */
+    koksma_status status;
 } koksma__import;
 
 /* A colour, or an image over texture coordinates, or a checkerboard with two colours. */
@@ -177,33 +194,40 @@ bool koksma__plugin_entry(const koksma__plugins *all, const char *of, const char
 
 extern const double koksma__import_identity[12];
 
-/* koksma__import_fail fails with MALFORMED and the text "FILE:LINE: ...". koksma__import_fail_at returns `status`; if
-   that is an error, it puts "FILE:LINE" before the error's text. */
-koksma_status koksma__import_fail(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
-koksma_status koksma__import_fail_at(koksma__text_place place, koksma_status status);
+/* ---- Failures and warnings ------------------------------------------------------------------------------------------- */
+
+/* Calls read(reader) and returns KOKSMA_OK, or the status of the failure that ended it. */
+koksma_status koksma__import_try(koksma__import *im, void (*read)(void *reader), void *reader);
+
+/* Fail with MALFORMED and the text "FILE:LINE: ...", the second one if `is_so`. */
+_Noreturn void koksma__import_fail(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
+void koksma__import_fail_if(bool is_so, koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(3, 4);
+
+/* Fail if a call did, whose error's text is set: with "FILE:LINE" before the text, and with the text as it is. */
+void koksma__import_check(koksma__text_place place, koksma_status status);
+void koksma__import_pass(koksma__text_place place, koksma_status status);
+
+/* koksma__add_one() and koksma__names_put(), which fail if there is no memory. */
+void *koksma__import_add(koksma__text_place place, void *array, size_t *n, size_t item_size);
+void koksma__import_put_name(koksma__text_place place, koksma__names *names, const char *name, size_t index);
 
 /* Counts work, in steps of the time in which an element of a file is looked at. References let a small file ask for any
-   amount of it, so the whole scene may take at most 2^26 steps, a second or two. Error: MALFORMED. */
-koksma_status koksma__import_spend(koksma__import *im, koksma__text_place place, uint64_t steps);
+   amount of it, so the whole scene may take at most 2^26 steps, a second or two; more fail. */
+void koksma__import_spend(koksma__text_place place, uint64_t steps);
 
-/* Adds a warning about an unsupported feature and its replacement, "FILE:LINE: ...", the second one if `is_so` is true.
-   Warnings with equal texts become one, with the number of places. Errors: MEMORY, MALFORMED (koksma__import_spend). */
-koksma_status koksma__import_unknown(koksma__import *im, koksma__text_place place, const char *format, ...)
-    KOKSMA_PRINTF(3, 4);
-koksma_status koksma__import_unknown_if(bool is_so, koksma__import *im, koksma__text_place place, const char *format,
-                                        ...) KOKSMA_PRINTF(4, 5);
+/* Add a warning about an unsupported feature and its replacement, "FILE:LINE: ...", the second one if `is_so`. Warnings
+   with equal texts become one, with the number of places. */
+void koksma__import_unknown(koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(2, 3);
+void koksma__import_unknown_if(bool is_so, koksma__text_place place, const char *format, ...) KOKSMA_PRINTF(3, 4);
 
 /* Whether the list of warnings is full: more would only be counted in its last entry. */
 bool koksma__import_is_full(const koksma__import *im);
 
-/* Adds a folder, relative to the scene's own, to search for files that are not beside the scene. Error: MALFORMED
-   (too many, or the path is too long). */
-koksma_status koksma__import_folder(koksma__import *im, koksma__text_place place, const char *name);
+/* ---- Colours, materials, lights, the camera -------------------------------------------------------------------------- */
 
 /* Writes to `out` the path of a file that the scene names: the file beside the scene or, if there is none, the file
-   in the first of the folders that has one. */
-koksma_status koksma__import_path(koksma__import *im, koksma__text_place place, const char *name,
-                                  char out[KOKSMA__MAX_PATH]);
+   in the first of im->folders that has one. */
+void koksma__import_path(koksma__text_place place, const char *name, char out[KOKSMA__MAX_PATH]);
 
 /* Clamps radiance to what a scene allows, at most 1e6. */
 void koksma__import_radiance(koksma__import *im, double rgb[3]);
@@ -216,65 +240,53 @@ void koksma__import_black_body(double kelvin, double rgb[3]);
    unknown. */
 bool koksma__import_metal(const char *name, double rgb[3]);
 
-/* The reflectance of a metal along the normal from its refractive index eta and its absorption k; each is clamped to
-   [0, 1e6]. */
-void koksma__import_fresnel(const double eta[3], const double k[3], double rgb[3]);
-
-/* Whether it is the one colour 1. */
-static inline bool koksma__import_is_white(const koksma__import_colour *c)
-{
-    return !*c->image && !c->is_checker && c->rgb[0] == 1 && c->rgb[1] == 1 && c->rgb[2] == 1;
-}
-
 /* Where only one colour fits: replaces an image or a checkerboard by its mean colour, with a warning that names it as
    `what`. An image's levels above 1 count as 1 in a reflectance. An image that can't be decoded is left out, as it is where
    it would be shown. */
-koksma_status koksma__import_mean(koksma__import *im, koksma__text_place place, const char *what,
-                                  koksma__spectrum_use use, koksma__import_colour *c);
+void koksma__import_mean(koksma__text_place place, const char *what, koksma__spectrum_use use,
+                         koksma__import_colour *c);
 
 /* Turns a colour, image or checkerboard x into scale x + plus, channel by channel. */
 void koksma__import_affine(koksma__import_colour *c, const double scale[3], const double plus[3]);
 
-koksma_status koksma__import_add_material(koksma__import *im, koksma__text_place place,
-                                          const koksma__import_material *from, int *out);
-
 /* Turns an amount into the colour, image or checkerboard that goes from `first` to `second` as it goes from 0 to 1. */
 void koksma__import_between(koksma__import_colour *amount, const double first[3], const double second[3]);
 
-/* Sets *out to a mixture of two materials (-1: light passes through), of which the second has the share `amount`: exactly
-   where one material of Koksma scatters as both do together, and else to the one with the larger share, with a warning. */
-koksma_status koksma__import_mix(koksma__import *im, koksma__text_place place, int first, int second,
-                                 koksma__import_colour *amount, int *out);
+/* The functions that make materials return the index of one, -1 where light passes through. The nearest one of Koksma's: */
+int koksma__import_material_of(koksma__text_place place, const koksma__import_material *from);
 
-/* Replaces a material by one that only the share `opacity` of the light meets. */
-koksma_status koksma__import_mask(koksma__import *im, koksma__text_place place, koksma__import_colour *opacity,
-                                  int *material);
+/* A mixture of two materials, of which the second has the share `amount`: exactly where one material of Koksma scatters as
+   both do together, and else the one with the larger share, with a warning. */
+int koksma__import_mix(koksma__text_place place, int first, int second, koksma__import_colour *amount);
+
+/* A material of which only the share `opacity` of the light meets the surface. */
+int koksma__import_mask(koksma__text_place place, int material, koksma__import_colour *opacity);
 
 /* Makes a material, or a black one in place of -1, emit the image `radiance`, if that is one: the surface's radiance is
    then a factor, which becomes the image's scale. */
-koksma_status koksma__import_glow(koksma__import *im, koksma__text_place place, const koksma__import_colour *radiance,
-                                  koksma__import_surface *surface);
+void koksma__import_glow(koksma__text_place place, const koksma__import_colour *radiance,
+                         koksma__import_surface *surface);
 
 /* Adds a light; its radiance is clamped to what scenes allow. */
-koksma_status koksma__import_light(koksma__import *im, koksma__text_place place, const koksma__light *light);
+void koksma__import_light(koksma__text_place place, const koksma__light *light);
 
 /* Makes a light a spot with its axis along `direction` and full intensity up to `inner_deg`, which falls to 0 at
-   `outer_deg` by `falloff` (koksma__falloff). Errors: MALFORMED (no direction or no cone). */
-koksma_status koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg,
-                                  double outer_deg, int falloff, koksma__light *light);
+   `outer_deg` by `falloff` (koksma__falloff). */
+void koksma__import_spot(koksma__text_place place, const double direction[3], double inner_deg, double outer_deg,
+                         int falloff, koksma__light *light);
 
 /* Adds an environment, multiplied by `scale`: of Mitsuba a latitude-longitude image, of pbrt-v4 an octahedral map (Clarberg
    2008); `matrix` transforms the image's directions to the scene's. With an illuminance above 0 the map has another factor,
    the illuminance divided by what pbrt takes for that of its upper half, z > 0: 2 pi times the mean over all pixels of
    luminance times cosine, twice the integral. */
-koksma_status koksma__import_sky(koksma__import *im, koksma__text_place place, const char *name, double illuminance,
-                                 const double scale[3], const double matrix[12]);
+void koksma__import_sky(koksma__text_place place, const char *name, double illuminance, const double scale[3],
+                        const double matrix[12]);
 
 /* Sets the camera. The columns of the matrix are the direction to the right (times `right`, 1 or -1), the direction
    up (whose length scales an orthographic camera's height), the direction ahead and the position; `lens` gives the
    angle or height and the lens. */
-koksma_status koksma__import_camera(koksma__import *im, koksma__text_place place, const double matrix[12],
-                                    double right, const koksma__camera *lens);
+void koksma__import_camera(koksma__text_place place, const double matrix[12], double right,
+                           const koksma__camera *lens);
 
 /* Gives a vector of any finite length the length 1; returns false if it has no direction. */
 bool koksma__import_normalise(double v[3]);
@@ -283,9 +295,9 @@ bool koksma__import_normalise(double v[3]);
 bool koksma__import_invert(const double matrix[12], double out[12]);
 
 /* Finds the matrix of a camera at `eye` that looks at `target`: its columns are the direction across, up and ahead, and the
-   eye. Error: MALFORMED (there is no such direction; `name` is for the text). */
-koksma_status koksma__import_look_at(koksma__text_place place, const char *name, const double eye[3],
-                                     const double target[3], const double up[3], double out[12]);
+   eye. `name` is for errors. */
+void koksma__import_look_at(koksma__text_place place, const char *name, const double eye[3], const double target[3],
+                            const double up[3], double out[12]);
 
 /* Finds the matrix of a rotation about an axis; returns false if the axis has no direction. */
 bool koksma__import_rotation(double angle_deg, const double axis[3], double out[12]);
@@ -298,24 +310,18 @@ enum { KOKSMA__HELD_WITH_NAME = 64 };
 /* Counts memory, before it is taken, that texts make a reader keep: the texts that are open, elements, names, objects, and
    meshes whose triangles the texts have. A few characters make hundreds of bytes, and a text may be included again and
    again, so all may take 384 MiB together. Beside that are 128 MiB for expat (xml.c), and what a text of 64 MiB takes in
-   passing: 320 MiB for the numbers of a mesh. Error: MALFORMED. */
-koksma_status koksma__import_hold(koksma__import *im, koksma__text_place place, uint64_t bytes);
+   passing: 320 MiB for the numbers of a mesh. */
+void koksma__import_hold(koksma__text_place place, uint64_t bytes);
 
-/* The same for a mesh. */
-koksma_status koksma__import_hold_mesh(koksma__import *im, koksma__text_place place, const koksma__mesh *mesh);
+/* Checks numbers by which a texture is scaled or moved, which must be within 1e6, so that texture coordinates are
+   finite. */
+void koksma__import_check_uv(koksma__text_place place, const double *values, size_t n);
 
-/* Checks numbers by which a texture is scaled or moved, which must be within 1e6, so that texture coordinates are finite.
-   Error: MALFORMED. */
-koksma_status koksma__import_check_uv(koksma__text_place place, const double *values, size_t n);
-
-/* ---- Texts ----------------------------------------------------------------------------------------------------------- */
-
-/* Reads a file that the scene includes. The file must be below the scene's folder, and a scene can include at most
-   MOST_INCLUDES files; their bytes count as work. The caller passes *bytes to koksma__import_text_close. */
+/* Opens a file that the scene includes, until koksma__import_text_close(). The file must be below the scene's folder, and a
+   scene can include at most MOST_INCLUDES files; their bytes count as work. */
 enum { KOKSMA__STEP_TEXT = 8 }; /* the bytes of a text that count as one step of koksma__import_spend */
-koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
-                                  size_t *size);
-void koksma__import_text_close(koksma__import *im, char *bytes, size_t size);
+koksma__open_text koksma__import_text(koksma__text_place place, const char *path);
+void koksma__import_text_close(koksma__import *im); /* the last one */
 
 /* ---- Shapes ---------------------------------------------------------------------------------------------------------- */
 
@@ -326,26 +332,23 @@ typedef struct koksma__mesh_rules {
     bool flips_v; /* each texture coordinate v becomes 1 - v */
 } koksma__mesh_rules;
 
-/* Gives a mesh the texture coordinates that the triangles of pbrt (or of Mitsuba) have without any: (0, 0), (1, 0),
+/* Gives im->mesh the texture coordinates that the triangles of pbrt (or of Mitsuba) have without any: (0, 0), (1, 0),
    (1, 1) (or (0, 1)) at their corners; of pbrt's bilinear patches, which are two triangles here, from the first corner
    to the second and fourth, and to the fourth and third: (0, 0), (1, 0), (0, 1), (1, 1). Corners no longer share
-   vertices. Error: MEMORY. */
-koksma_status koksma__import_default_uv(koksma__mesh *mesh, bool quads, bool mitsubas);
+   vertices. */
+void koksma__import_default_uv(koksma__text_place place, bool quads);
 
-/* Add a mesh and set *out to its index in the scene, or to -1 if the mesh is left out with a warning.
-   koksma__import_mesh takes over the memory of *mesh. koksma__import_mesh_file reads the mesh from a file, each mesh
-   only once; `part` is the number of the mesh in a .serialized file, -1 for all its meshes as one. */
-koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out);
-koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
-                                       koksma__mesh_rules rules, int *out);
+/* Add a mesh and return its index in the scene, or -1 if the mesh is left out with a warning: im->mesh, or one from a file,
+   which is read only once; `part` is the number of the mesh in a .serialized file, -1 for all its meshes as one. */
+int koksma__import_mesh(koksma__text_place place);
+int koksma__import_mesh_file(koksma__text_place place, const char *name, long part, koksma__mesh_rules rules);
 
 /* Adds a shape to the scene; `outer`, which may be NULL, is a transformation that is applied after the shape's own
    matrix. If that transformation moves, `poses` has its poses at the times 0 and 1; otherwise `poses` is NULL. */
-koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12],
-                                 const koksma__pose poses[2]);
+void koksma__import_put(const koksma__import_item *item, const double outer[12], const koksma__pose poses[2]);
 
-/* Frees the lists that import_shapes.c keeps for an import. */
-void koksma__import_shapes_fini(koksma__import *im);
+/* Frees what an import keeps. */
+void koksma__import_fini(koksma__import *im);
 
 /* ---- Environments ---------------------------------------------------------------------------------------------------- */
 

@@ -29,12 +29,16 @@
 
 enum { SIDES = 64, RINGS = 32 };
 
-void koksma__import_shapes_fini(koksma__import *im)
+void koksma__import_fini(koksma__import *im)
 {
     for (size_t i = 0; i < im->n_packed; i++) {
         koksma__mesh_file_fini(&im->packed[i]);
     }
-    KOKSMA__FREE(im->twins, im->packed);
+    while (im->n_texts) {
+        koksma__import_text_close(im);
+    }
+    koksma__mesh_fini(&im->mesh);
+    KOKSMA__FREE(im->twins, im->packed, im->texts);
     koksma__names_fini(&im->packed_names);
     koksma__names_fini(&im->files);
 }
@@ -47,63 +51,50 @@ struct koksma__mesh_twins {
 };
 
 /* in_file: the mesh is from a file; otherwise the scene's text has it. */
-static koksma_status add_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, bool in_file,
-                              int *out)
+static int add_mesh(koksma__text_place place, bool in_file)
 {
+    koksma__import *im = place.im;
     koksma__mesh *to = NULL;
-    *out = -1;
-    if (koksma__mesh_check(mesh)) {
-        koksma__mesh_fini(mesh);
-        return koksma__import_unknown(im, place, "a mesh is left out: %s", koksma_error_text());
+    if (koksma__mesh_check(&im->mesh)) {
+        koksma__mesh_fini(&im->mesh);
+        koksma__import_unknown(place, "a mesh is left out: %s", koksma_error_text());
+        return -1;
     }
-    struct koksma__mesh_twins *twin = koksma__add_one(&im->twins, &im->n_twins, sizeof *twin);
-    const koksma_status status = twin ? koksma__scene_add_mesh(im->scene, &to) : KOKSMA_MEMORY;
-    if (status) {
-        koksma__mesh_fini(mesh);
-        return koksma__import_fail_at(place, status);
-    }
+    struct koksma__mesh_twins *twin = koksma__import_add(place, &im->twins, &im->n_twins, sizeof *twin);
     *twin = (struct koksma__mesh_twins){-1, -1, in_file};
-    *to = *mesh;
-    *out = (int)im->scene->n_meshes - 1;
+    koksma__import_check(place, koksma__scene_add_mesh(im->scene, &to));
+    *to = im->mesh;
+    im->mesh = (koksma__mesh){0};
     koksma__scene_hash_mesh(im->scene, in_file);
-    return KOKSMA_OK;
+    return (int)im->scene->n_meshes - 1;
 }
 
-koksma_status koksma__import_mesh(koksma__import *im, koksma__text_place place, koksma__mesh *mesh, int *out)
+int koksma__import_mesh(koksma__text_place place)
 {
-    const koksma_status status = koksma__import_hold_mesh(im, place, mesh);
-    if (status) {
-        koksma__mesh_fini(mesh);
-        return status;
-    }
-    return add_mesh(im, place, mesh, false, out);
-}
-
-/* Replaces the second texture coordinate v of each vertex by 1 - v. */
-static void turn_rows(koksma__mesh *mesh)
-{
-    for (size_t i = 0; mesh->uvs && i < mesh->n_vertices; i++) {
-        mesh->uvs[2 * i + 1] = 1 - mesh->uvs[2 * i + 1];
-    }
+    const koksma__mesh *mesh = &place.im->mesh;
+    const size_t numbers = 3 + (mesh->normals ? 3 : 0) + (mesh->uvs ? 2 : 0);
+    koksma__import_hold(place,
+                        2 * sizeof *mesh + sizeof(float) * (numbers * mesh->n_vertices + 3 * mesh->n_triangles));
+    return add_mesh(place, false);
 }
 
 /* Copies mesh number `part` of a .serialized file, of which `key` is that of koksma__file_key. Files are kept, because a
    scene names one for each of its meshes; those that are together larger than a model may be are read again. */
-static koksma_status read_part(koksma__import *im, koksma__text_place place, const char *path, const char *key,
-                               long part, koksma__mesh *mesh)
+static void read_part(koksma__text_place place, const char *path, const char *key, long part)
 {
+    koksma__import *im = place.im;
     size_t at;
     if (!koksma__names_find(&im->packed_names, key, strlen(key), &at)) {
         at = im->n_packed;
-        KOKSMA__TRY(koksma__add_one(&im->packed, &im->n_packed, sizeof *im->packed) ? KOKSMA_OK : KOKSMA_MEMORY);
-        KOKSMA__TRY(koksma__names_put(&im->packed_names, key, strlen(key), at));
+        koksma__import_add(place, &im->packed, &im->n_packed, sizeof *im->packed);
+        koksma__import_put_name(place, &im->packed_names, key, at);
     }
     koksma__mesh_file *f = &im->packed[at];
     if (!f->meshes.n) {
-        KOKSMA__TRY(koksma__file_count(&im->scene->mesh_files, path));
-        KOKSMA__TRY(koksma__mesh_file_read(path, KOKSMA__BY_FILE, f));
+        koksma__import_check(place, koksma__file_count(&im->scene->mesh_files, path));
+        koksma__import_check(place, koksma__mesh_file_read(path, KOKSMA__BY_FILE, f));
         const size_t size = f->n_vertices + f->n_triangles;
-        KOKSMA__TRY(koksma__import_spend(im, place, size / 4));
+        koksma__import_spend(place, size / 4);
         im->kept += size;
         for (size_t i = 0; im->kept > KOKSMA__MAX_VERTICES && i < im->n_packed; i++) {
             if (i != at) {
@@ -112,115 +103,109 @@ static koksma_status read_part(koksma__import *im, koksma__text_place place, con
             }
         }
     }
-    KOKSMA__FAIL_IF(part < 0 || (size_t)part >= f->meshes.n, KOKSMA_MALFORMED,
-                    "%s: there is no mesh %ld; the file has %zu, counted from 0", path, part, f->meshes.n);
-    KOKSMA__TRY(koksma__mesh_copy(&koksma__file_mesh_at(f, (size_t)part)->mesh, mesh));
-    const koksma_status status = koksma__mesh_check(mesh);
-    return status ? koksma__fail_in(status, path) : KOKSMA_OK;
+    koksma__import_fail_if(part < 0 || (size_t)part >= f->meshes.n, place,
+                           "%s: there is no mesh %ld; the file has %zu, counted from 0", path, part, f->meshes.n);
+    koksma__import_check(place, koksma__mesh_copy(&koksma__file_mesh_at(f, (size_t)part)->mesh, &im->mesh));
+    const koksma_status status = koksma__mesh_check(&im->mesh);
+    koksma__import_check(place, status ? koksma__fail_in(status, path) : KOKSMA_OK);
 }
 
-/* Reads the mesh and adapts it to the conventions of the other renderer. */
-static koksma_status read_mesh(koksma__import *im, koksma__text_place place, const char *path, const char *key,
-                               long part, koksma__mesh_rules rules, koksma__mesh *mesh)
+/* Reads a mesh and adapts it to the conventions of the other renderer. */
+static void read_mesh(koksma__text_place place, const char *path, const char *key, long part,
+                      koksma__mesh_rules rules)
 {
-    KOKSMA__TRY(part < 0 ? koksma__mesh_read(path, KOKSMA__BY_FILE, &im->scene->mesh_files, mesh)
-                         : read_part(im, place, path, key, part, mesh));
-    KOKSMA__TRY(koksma__scene_limit_mesh(im->scene, mesh, path));
-    if (rules.flips_v) {
-        turn_rows(mesh);
+    koksma__mesh *mesh = &place.im->mesh;
+    koksma_scene *scene = place.im->scene;
+    if (part < 0) {
+        koksma__import_check(place, koksma__mesh_read(path, KOKSMA__BY_FILE, &scene->mesh_files, mesh));
+    } else {
+        read_part(place, path, key, part);
+    }
+    koksma__import_check(place, koksma__scene_limit_mesh(scene, mesh, path));
+    for (size_t i = 0; rules.flips_v && mesh->uvs && i < mesh->n_vertices; i++) {
+        mesh->uvs[2 * i + 1] = 1 - mesh->uvs[2 * i + 1];
     }
     if (rules.facets) {
         free(mesh->normals);
         mesh->normals = NULL;
+    } else if (rules.smooths && !mesh->normals) {
+        koksma__import_check(place, koksma__mesh_smooth_by_angles(mesh));
     }
-    KOKSMA__TRY(rules.smooths && !rules.facets && !mesh->normals ? koksma__mesh_smooth_by_angles(mesh) : KOKSMA_OK);
     free(mesh->corners);
     mesh->corners = NULL;
-    return KOKSMA_OK;
 }
 
-koksma_status koksma__import_mesh_file(koksma__import *im, koksma__text_place place, const char *name, long part,
-                                       koksma__mesh_rules rules, int *out)
+int koksma__import_mesh_file(koksma__text_place place, const char *name, long part, koksma__mesh_rules rules)
 {
     char full[KOKSMA__MAX_PATH], file[KOKSMA__FILE_KEY], which[128];
-    const char *ending = NULL;
-    koksma__mesh mesh = {0};
     size_t known = 0;
-    KOKSMA__TRY(koksma__import_path(im, place, name, full));
-    *out = -1;
+    koksma__import_path(place, name, full);
     if (!koksma__is_mesh_file(full)) {
-        return koksma__import_unknown(im, place, "the mesh %s has an unsupported format: it is left out", name);
+        koksma__import_unknown(place, "the mesh %s has an unsupported format: it is left out", name);
+        return -1;
     }
     /* a file may be named in many ways, of which the ending tells how it is read; if it has no key, reading says why */
     koksma__file_key(full, file);
-    ending = strrchr(full, '.');
+    const char *ending = strrchr(full, '.');
     part = strcmp(ending, ".serialized") != 0 ? -1 : part; /* others have no numbered meshes */
     snprintf(which, sizeof which, "%s %ld %d%d%d%.16s", file, part, rules.facets, rules.smooths, rules.flips_v,
              ending);
-    if (*file && koksma__names_find(&im->files, which, strlen(which), &known)) {
-        *out = (int)known - 1;
-        return KOKSMA_OK;
+    if (*file && koksma__names_find(&place.im->files, which, strlen(which), &known)) {
+        return (int)known - 1;
     }
-    const koksma_status status = read_mesh(im, place, full, file, part, rules, &mesh);
-    if (status) {
-        koksma__mesh_fini(&mesh);
-        return koksma__import_fail_at(place, status);
-    }
-    KOKSMA__TRY(add_mesh(im, place, &mesh, true, out));
-    return koksma__names_put(&im->files, which, strlen(which), (size_t)(*out + 1));
+    read_mesh(place, full, file, part, rules);
+    const int mesh = add_mesh(place, true);
+    koksma__import_put_name(place, &place.im->files, which, (size_t)(mesh + 1));
+    return mesh;
 }
 
-koksma_status koksma__import_default_uv(koksma__mesh *mesh, bool quads, bool mitsubas)
+void koksma__import_default_uv(koksma__text_place place, bool quads)
 {
     static const float corners[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+    koksma__mesh *mesh = &place.im->mesh, out = {0};
     const size_t n = 3 * mesh->n_triangles;
-    koksma__mesh out = {0};
-    koksma_status status = koksma__mesh_init(n, mesh->n_triangles, mesh->normals != NULL, true, &out);
-    for (size_t i = 0; !status && i < n; i++) {
+    const koksma_status status = koksma__mesh_init(n, mesh->n_triangles, mesh->normals != NULL, true, &out);
+    if (status) {
+        koksma__mesh_fini(&out);
+    }
+    koksma__import_pass(place, status);
+    for (size_t i = 0; i < n; i++) {
         const size_t from = mesh->indices[i];
         memcpy(out.vertices + 3 * i, mesh->vertices + 3 * from, 3 * sizeof *out.vertices);
         if (mesh->normals) {
             memcpy(out.normals + 3 * i, mesh->normals + 3 * from, 3 * sizeof *out.normals);
         }
         memcpy(out.uvs + 2 * i, corners[quads && i / 3 % 2][i % 3], 2 * sizeof *out.uvs);
-        out.uvs[2 * i] = mitsubas && i % 3 == 2 ? 0 : out.uvs[2 * i];
+        out.uvs[2 * i] = place.im->rows_down && i % 3 == 2 ? 0 : out.uvs[2 * i];
         out.indices[i] = (uint32_t)i;
     }
-    koksma__mesh_fini(status ? &out : mesh);
-    if (!status) {
-        *mesh = out;
-    }
-    return status;
+    koksma__mesh_fini(mesh);
+    *mesh = out;
 }
 
 /* Finds a form of a mesh that is in the scene, or adds it: turned inside out, or with default texture coordinates. */
-static koksma_status find_twin(koksma__import *im, koksma__text_place place, int mesh, bool inside_out, int *out)
+static int find_twin(koksma__text_place place, int mesh, bool inside_out)
 {
-    koksma__mesh twin = {0};
+    koksma__import *im = place.im;
     const struct koksma__mesh_twins known = im->twins[mesh];
-    *out = inside_out ? known.inside_out : known.with_uv;
-    if (*out >= 0) {
-        return KOKSMA_OK;
+    if ((inside_out ? known.inside_out : known.with_uv) >= 0) {
+        return inside_out ? known.inside_out : known.with_uv;
     }
-    koksma_status status = koksma__mesh_copy(&im->scene->meshes[mesh], &twin);
-    if (!status && inside_out) {
-        koksma__mesh_flip(&twin);
-    } else if (!status) {
-        status = koksma__import_default_uv(&twin, false, im->rows_down);
-    }
-    if (status) {
-        koksma__mesh_fini(&twin);
-        return status;
+    koksma__import_pass(place, koksma__mesh_copy(&im->scene->meshes[mesh], &im->mesh));
+    if (inside_out) {
+        koksma__mesh_flip(&im->mesh);
+    } else {
+        koksma__import_default_uv(place, false);
     }
     /* a file may be larger than what counts as held */
-    KOKSMA__TRY(known.of_file ? add_mesh(im, place, &twin, false, out) : koksma__import_mesh(im, place, &twin, out));
+    const int twin = known.of_file ? add_mesh(place, false) : koksma__import_mesh(place);
     if (inside_out) {
-        im->twins[mesh].inside_out = *out;
-        im->twins[*out].inside_out = mesh;
+        im->twins[mesh].inside_out = twin;
+        im->twins[twin].inside_out = mesh;
     } else {
-        im->twins[mesh].with_uv = *out;
+        im->twins[mesh].with_uv = twin;
     }
-    return KOKSMA_OK;
+    return twin;
 }
 
 /* ---- Meshes of basic shapes -------------------------------------------------------------------------------- */
@@ -255,12 +240,13 @@ static void to_side(int side, double p[3], double n[3])
     n[k] = sign, n[(k + 1) % 3] = n[(k + 2) % 3] = 0;
 }
 
-static koksma_status make_form(koksma__form form, koksma__mesh *out)
+static void make_form(koksma__text_place place, koksma__form form)
 {
+    koksma__mesh *out = &place.im->mesh;
     const bool flat = form == KOKSMA__FORM_SQUARE || form == KOKSMA__FORM_CUBE;
     const size_t sides = form == KOKSMA__FORM_CUBE ? 6 : 1, columns = flat ? 1 : SIDES;
     const size_t rows = form == KOKSMA__FORM_SPHERE ? RINGS : 1, each = (columns + 1) * (rows + 1);
-    KOKSMA__TRY(koksma__mesh_init(sides * each, sides * 2 * columns * rows, true, true, out));
+    koksma__import_pass(place, koksma__mesh_init(sides * each, sides * 2 * columns * rows, true, true, out));
     uint32_t *triangle = out->indices;
     for (size_t i = 0; i < sides * each; i++) {
         const size_t x = i % each % (columns + 1), y = i % each / (columns + 1);
@@ -282,7 +268,6 @@ static koksma_status make_form(koksma__form form, koksma__mesh *out)
             triangle += 6;
         }
     }
-    return KOKSMA_OK;
 }
 
 /* Changes uv from the texture coordinates of form_point to those of Mitsuba, where they differ: on a sphere v is
@@ -301,24 +286,18 @@ static void set_mitsubas_uv(koksma__form form, const float p[3], const float n[3
     }
 }
 
-static koksma_status find_form(koksma__import *im, koksma__text_place place, koksma__form form, int *out)
+static int find_form(koksma__text_place place, koksma__form form)
 {
-    koksma__mesh mesh = {0};
-    if (im->forms[form]) {
-        *out = im->forms[form] - 1;
-        return KOKSMA_OK;
+    koksma__import *im = place.im;
+    const koksma__mesh *mesh = &im->mesh;
+    if (!im->forms[form]) {
+        make_form(place, form);
+        for (size_t i = 0; im->rows_down && i < mesh->n_vertices; i++) {
+            set_mitsubas_uv(form, mesh->vertices + 3 * i, mesh->normals + 3 * i, mesh->uvs + 2 * i);
+        }
+        im->forms[form] = koksma__import_mesh(place) + 1;
     }
-    const koksma_status status = make_form(form, &mesh);
-    if (status) {
-        koksma__mesh_fini(&mesh);
-        return status;
-    }
-    for (size_t i = 0; im->rows_down && i < mesh.n_vertices; i++) {
-        set_mitsubas_uv(form, mesh.vertices + 3 * i, mesh.normals + 3 * i, mesh.uvs + 2 * i);
-    }
-    KOKSMA__TRY(koksma__import_mesh(im, place, &mesh, out));
-    im->forms[form] = *out + 1;
-    return KOKSMA_OK;
+    return im->forms[form] - 1;
 }
 
 /* ---- Placing shapes ---------------------------------------------------------------------------------------- */
@@ -337,10 +316,16 @@ typedef struct placed {
     double before[12], after[12];
 } placed;
 
-/* Sets the motion of a placement; fails if its box at time 1 is beyond the bounds that the caller has checked at time
-   0. */
-static koksma_status set_mesh_motion(koksma_scene *scene, const koksma__import_item *item, const placed *at,
-                                     koksma__placement *p)
+/* Computes the box of a placement, and fails if it is beyond the bounds. */
+static void bound(koksma__text_place place, koksma__placement *p, const char *how)
+{
+    koksma__placement_box(&place.im->scene->meshes[p->mesh], p);
+    for (int k = 0; k < 3; k++) {
+        koksma__import_fail_if(!(p->low[k] >= -FAR && p->high[k] <= FAR), place, "a mesh %s beyond 1e6", how);
+    }
+}
+
+static void set_mesh_motion(koksma__text_place place, const placed *at, koksma__placement *p)
 {
     koksma__placement end = *p;
     memcpy(p->poses, at->poses, sizeof p->poses);
@@ -348,48 +333,36 @@ static koksma_status set_mesh_motion(koksma_scene *scene, const koksma__import_i
     memcpy(p->after, at->after, sizeof p->after);
     p->steps = koksma__pose_steps(p->poses);
     koksma__placement_at(p, 1, end.matrix);
-    koksma__placement_box(&scene->meshes[p->mesh], &end);
-    for (int k = 0; k < 3; k++) {
-        if (!(end.low[k] >= -FAR && end.high[k] <= FAR)) {
-            return koksma__import_fail(item->place, "a mesh moves beyond 1e6");
-        }
-    }
-    return KOKSMA_OK;
+    bound(place, &end, "moves");
 }
 
-static koksma_status put_mesh(koksma__import *im, const koksma__import_item *item, int mesh, const placed *at)
+static void put_mesh(const koksma__import_item *item, int mesh, const placed *at)
 {
-    const double *matrix = at->matrix;
-    koksma_scene *scene = im->scene;
+    const koksma__text_place place = item->place;
+    koksma_scene *scene = place.im->scene;
     koksma__import_surface surface = item->surface;
     koksma__placement *p = NULL;
     if (surface.material >= 0 && !scene->meshes[mesh].uvs && is_textured(&scene->materials[surface.material])) {
-        KOKSMA__TRY(find_twin(im, item->place, mesh, false, &mesh));
+        mesh = find_twin(place, mesh, false);
     }
-    if (koksma__matrix_mirrors(matrix) != surface.turned) {
-        KOKSMA__TRY(find_twin(im, item->place, mesh, true, &mesh));
+    if (koksma__matrix_mirrors(at->matrix) != surface.turned) {
+        mesh = find_twin(place, mesh, true);
     }
-    KOKSMA__TRY(koksma__import_fail_at(item->place, koksma__scene_add_placement(scene, &p)));
+    koksma__import_check(place, koksma__scene_add_placement(scene, &p));
     p->mesh = mesh;
     p->material = surface.material;
     p->smooth = scene->meshes[mesh].normals != NULL && !(surface.emits && surface.material < 0);
-    memcpy(p->matrix, matrix, sizeof p->matrix);
-    koksma__placement_box(&scene->meshes[mesh], p);
-    for (int k = 0; k < 3; k++) {
-        if (!(p->low[k] >= -FAR && p->high[k] <= FAR)) {
-            return koksma__import_fail(item->place, "a mesh reaches beyond 1e6");
-        }
+    memcpy(p->matrix, at->matrix, sizeof p->matrix);
+    bound(place, p, "reaches");
+    if (at->moves) {
+        set_mesh_motion(place, at, p);
     }
-    KOKSMA__TRY(at->moves ? set_mesh_motion(scene, item, at, p) : KOKSMA_OK);
-    koksma__import_radiance(im, surface.radiance);
-    KOKSMA__TRY(
-        koksma__import_unknown_if(surface.hidden, im, item->place, "an invisible light of triangles is visible"));
-    if (!surface.emits) {
-        return KOKSMA_OK;
+    koksma__import_radiance(place.im, surface.radiance);
+    koksma__import_unknown_if(surface.hidden, place, "an invisible light of triangles is visible");
+    if (surface.emits) {
+        koksma__import_check(place, koksma__scene_add_glow(scene, p, surface.radiance));
+        scene->lights[p->light].two_sided = surface.two_sided;
     }
-    KOKSMA__TRY(koksma__import_fail_at(item->place, koksma__scene_add_glow(scene, p, surface.radiance)));
-    scene->lights[p->light].two_sided = surface.two_sided;
-    return KOKSMA_OK;
 }
 
 /* Finds the lengths of a matrix's columns, and whether the columns are perpendicular. */
@@ -443,7 +416,7 @@ static bool turns_evenly(const placed *at)
 }
 
 /* Sets the motion of one of Koksma's own shapes, about the point that is the origin of the poses. */
-static koksma_status set_own_motion(const koksma__import_item *item, const placed *at, koksma__shape *shape)
+static void set_own_motion(const koksma__import_item *item, const placed *at, koksma__shape *shape)
 {
     const double *a = at->poses[0].rotation, *b = at->poses[1].rotation, *from = at->poses[0].translate;
     const double *stretch[2] = {at->poses[0].stretch, at->poses[1].stretch};
@@ -475,21 +448,19 @@ static koksma_status set_own_motion(const koksma__import_item *item, const place
     const double reach =
         shape->turn.scale * (sqrt(koksma__dot(off, off)) + koksma__hypot(shape->half[0], shape->half[1]));
     for (int k = 0; k < 3; k++) {
-        if (!(fabs(shape->turn.pivot[k] + shape->motion[k]) + reach <= FAR)) {
-            return koksma__import_fail(item->place, "a shape moves beyond 1e6");
-        }
+        koksma__import_fail_if(!(fabs(shape->turn.pivot[k] + shape->motion[k]) + reach <= FAR), item->place,
+                               "a shape moves beyond 1e6");
     }
-    return KOKSMA_OK;
 }
 
 /* The type of Koksma's own shape for an item; NULL if the matrix, the motion, a texture or the emitting side needs a
    mesh instead. */
-static const koksma__shape_type *own_shape(const koksma__import *im, const koksma__import_item *item,
-                                           const placed *at, double length[3])
+static const koksma__shape_type *own_shape(const koksma__import_item *item, const placed *at, double length[3])
 {
     const bool square = is_square(at->matrix, length) && !(at->moves && !turns_evenly(at)) &&
                         !(item->surface.emits && item->surface.two_sided);
-    const koksma__material *m = item->surface.material < 0 ? NULL : &im->scene->materials[item->surface.material];
+    const koksma__material *all = item->place.im->scene->materials,
+                           *m = item->surface.material < 0 ? NULL : &all[item->surface.material];
     if (!square ||
         (m && (m->see_through || m->maps[KOKSMA__MAP_EMISSION].image || (!item->surface.emits && is_textured(m))))) {
         return NULL;
@@ -510,9 +481,10 @@ static const koksma__shape_type *own_shape(const koksma__import *im, const koksm
 }
 
 /* Adds a shape of Koksma's own type with this matrix, and its light if it emits. */
-static koksma_status put_own(koksma__import *im, const koksma__import_item *item, const koksma__shape_type *type,
-                             const placed *at, const double length[3])
+static void put_own(const koksma__import_item *item, const koksma__shape_type *type, const placed *at,
+                    const double length[3])
 {
+    koksma__import *im = item->place.im;
     const double *m = at->matrix;
     const bool sphere = type == shape_type("sphere"), disk = type == shape_type("disk");
     const double side =
@@ -524,9 +496,8 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
         shape.axis_u[k] = m[4 * k] / length[0];
         shape.axis_v[k] = m[4 * k + 1] / length[1];
         normal[k] = side * m[4 * k + 2] / length[2];
-        if (!(fabs(shape.centre[k]) + length[k] <= FAR)) {
-            return koksma__import_fail(item->place, "a shape reaches beyond 1e6");
-        }
+        koksma__import_fail_if(!(fabs(shape.centre[k]) + length[k] <= FAR), item->place,
+                               "a shape reaches beyond 1e6");
     }
     koksma__cross(shape.axis_u, shape.axis_v, shape.normal);
     for (int k = 0; koksma__dot(shape.normal, normal) < 0 && k < 3; k++) {
@@ -535,7 +506,9 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
     koksma__cross(shape.axis_u, shape.axis_v, shape.normal);
     shape.half[0] = length[0];
     shape.half[1] = disk || sphere ? length[0] : length[1];
-    KOKSMA__TRY(at->moves ? set_own_motion(item, at, &shape) : KOKSMA_OK);
+    if (at->moves) {
+        set_own_motion(item, at, &shape);
+    }
     if (item->surface.emits) {
         koksma__light light = {.kind = sphere ? &koksma__light_sphere
                                        : disk ? &koksma__light_disk
@@ -550,14 +523,14 @@ static koksma_status put_own(koksma__import *im, const koksma__import_item *item
         koksma__import_radiance(im, light.radiance);
         const double *l = light.radiance, area = disk ? M_PI * length[0] * length[0] : 4 * length[0] * length[1];
         light.power = (0.2126 * l[0] + 0.7152 * l[1] + 0.0722 * l[2]) * area / M_PI;
-        KOKSMA__TRY(koksma__import_light(im, item->place, &light));
+        koksma__import_light(item->place, &light);
         if (item->surface.hidden) {
-            return KOKSMA_OK;
+            return;
         }
         shape.light = (int)im->scene->n_lights - 1;
         shape.material = -1;
     }
-    return koksma__import_fail_at(item->place, koksma__scene_add_shape(im->scene, &shape, &added));
+    koksma__import_check(item->place, koksma__scene_add_shape(im->scene, &shape, &added));
 }
 
 /* Whether a surface reflects nothing. */
@@ -569,58 +542,55 @@ static bool is_black(const koksma__material *m)
 
 /* Finds the matrices of an item that is placed by the further matrix `outer`, and its motion: by `poses` if they are
    given, otherwise the item's own motion. */
-static koksma_status place(koksma__import *im, const koksma__import_item *item, const double outer[12],
-                           const koksma__pose poses[2], placed *at)
+static void place_item(const koksma__import_item *item, const double outer[12], const koksma__pose poses[2],
+                       placed *at)
 {
     const double *first = outer ? outer : koksma__import_identity;
     koksma__matrix_multiply(first, item->matrix, at->matrix);
     for (int i = 0; i < 12; i++) {
-        if (!(fabs(at->matrix[i]) <= 1e9)) {
-            return koksma__import_fail(item->place, "a matrix has an entry beyond 1e9");
-        }
+        koksma__import_fail_if(!(fabs(at->matrix[i]) <= 1e9), item->place, "a matrix has an entry beyond 1e9");
     }
     at->moves = poses || item->motion.moves;
     if (at->moves && item->surface.emits) {
         at->moves = false;
-        return koksma__import_unknown(im, item->place, "a moving light stays where it is at the start");
-    }
-    if (at->moves) {
+        koksma__import_unknown(item->place, "a moving light stays where it is at the start");
+    } else if (at->moves) {
         memcpy(at->poses, poses ? poses : item->motion.poses, sizeof at->poses);
         memcpy(at->before, poses ? item->matrix : item->motion.before, sizeof at->before);
         memcpy(at->after, poses ? koksma__import_identity : first, sizeof at->after);
+        koksma__import_unknown_if(poses && item->motion.moves, item->place,
+                                  "motion within an object whose instance moves is ignored");
     }
-    return koksma__import_unknown_if(poses && item->motion.moves, im, item->place,
-                                     "motion within an object whose instance moves is ignored");
 }
 
-koksma_status koksma__import_put(koksma__import *im, const koksma__import_item *item, const double outer[12],
-                                 const koksma__pose poses[2])
+void koksma__import_put(const koksma__import_item *item, const double outer[12], const koksma__pose poses[2])
 {
+    const koksma__import_surface *surface = &item->surface;
     placed at;
     double length[3];
-    int mesh = item->mesh;
-    KOKSMA__TRY(koksma__import_spend(im, item->place, 64));
-    if (item->surface.material < 0 && !item->surface.emits) {
-        return KOKSMA_OK; /* no surface: light passes through */
+    koksma__import_spend(item->place, 64);
+    if (surface->material < 0 && !surface->emits) {
+        return; /* no surface: light passes through */
     }
-    if (item->surface.emits && item->surface.material >= 0 &&
-        is_black(&im->scene->materials[item->surface.material])) {
+    if (surface->emits && surface->material >= 0 && is_black(&item->place.im->scene->materials[surface->material])) {
         koksma__import_item dark = *item;
         dark.surface.material = -1; /* a light that reflects nothing becomes one of Koksma's own lights */
-        return koksma__import_put(im, &dark, outer, poses);
+        koksma__import_put(&dark, outer, poses);
+        return;
     }
-    KOKSMA__TRY(place(im, item, outer, poses, &at));
-    const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(im, item, &at, length);
+    place_item(item, outer, poses, &at);
+    const koksma__shape_type *own = item->form == KOKSMA__FORM_MESH ? NULL : own_shape(item, &at, length);
     if (own) {
-        KOKSMA__TRY(koksma__import_unknown_if(item->surface.emits && item->surface.material >= 0, im, item->place,
-                                              "the reflection of a round light is left out"));
-        return put_own(im, item, own, &at, length);
+        koksma__import_unknown_if(surface->emits && surface->material >= 0, item->place,
+                                  "the reflection of a round light is left out");
+        put_own(item, own, &at, length);
+        return;
     }
-    if (item->form != KOKSMA__FORM_MESH) {
-        KOKSMA__TRY(find_form(im, item->place, item->form, &mesh));
-    }
-    KOKSMA__TRY(koksma__import_unknown_if(
+    const int mesh = item->form == KOKSMA__FORM_MESH ? item->mesh : find_form(item->place, item->form);
+    koksma__import_unknown_if(
         item->form == KOKSMA__FORM_CYLINDER || item->form == KOKSMA__FORM_SPHERE || item->form == KOKSMA__FORM_DISK,
-        im, item->place, "a cylinder, or a stretched or textured round shape, becomes a mesh with %d sides", SIDES));
-    return mesh < 0 ? KOKSMA_OK : put_mesh(im, item, mesh, &at);
+        item->place, "a cylinder, or a stretched or textured round shape, becomes a mesh with %d sides", SIDES);
+    if (mesh >= 0) {
+        put_mesh(item, mesh, &at);
+    }
 }

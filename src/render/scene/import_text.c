@@ -18,33 +18,21 @@
 
 enum { MOST_HELD = 384 << 20 };
 
-koksma_status koksma__import_hold(koksma__import *im, koksma__text_place place, uint64_t bytes)
+void koksma__import_hold(koksma__text_place place, uint64_t bytes)
 {
-    im->held += bytes;
-    return im->held <= MOST_HELD
-               ? KOKSMA_OK
-               : koksma__import_fail(
-                     place,
-                     "what the texts of the scene describe up to here takes more than %d MiB of memory; "
-                     "meshes in files of their own do not count",
-                     MOST_HELD >> 20);
+    place.im->held += bytes;
+    koksma__import_fail_if(place.im->held > MOST_HELD, place,
+                           "what the texts of the scene describe up to here takes more than %d MiB of memory; meshes "
+                           "in files of their own do not count",
+                           MOST_HELD >> 20);
 }
 
-koksma_status koksma__import_hold_mesh(koksma__import *im, koksma__text_place place, const koksma__mesh *mesh)
-{
-    const size_t numbers = 3 + (mesh->normals ? 3 : 0) + (mesh->uvs ? 2 : 0);
-    return koksma__import_hold(
-        im, place, 2 * sizeof *mesh + sizeof(float) * (numbers * mesh->n_vertices + 3 * mesh->n_triangles));
-}
-
-koksma_status koksma__import_check_uv(koksma__text_place place, const double *values, size_t n)
+void koksma__import_check_uv(koksma__text_place place, const double *values, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        if (!(fabs(values[i]) <= FAR)) {
-            return koksma__import_fail(place, "a texture is scaled or moved by %g; the most is 1e6", values[i]);
-        }
+        koksma__import_fail_if(!(fabs(values[i]) <= FAR), place,
+                               "a texture is scaled or moved by %g; the most is 1e6", values[i]);
     }
-    return KOKSMA_OK;
 }
 
 enum { MOST_INCLUDES = 4096 };
@@ -85,32 +73,28 @@ static koksma_status read_text(const char *path, unsigned char **bytes, size_t *
     return KOKSMA_OK;
 }
 
-koksma_status koksma__import_text(koksma__import *im, koksma__text_place place, const char *path, char **bytes,
-                                  size_t *size)
+koksma__open_text koksma__import_text(koksma__text_place place, const char *path)
 {
+    koksma__import *im = place.im;
     char full[KOKSMA__MAX_PATH];
     unsigned char *read = NULL;
-    KOKSMA__TRY(koksma__import_path(im, place, path, full));
-    if (++im->n_files > MOST_INCLUDES) {
-        return koksma__import_fail(place, "more than %d files are included", MOST_INCLUDES);
-    }
-    if (!is_below(im->path, full)) {
-        return koksma__import_fail(place, "it includes '%s', which is not below the scene's own folder", path);
-    }
-    KOKSMA__TRY(koksma__import_fail_at(place, read_text(full, &read, size)));
-    koksma_status status = koksma__import_hold(im, place, *size);
-    status = status ? status : koksma__import_spend(im, place, *size / KOKSMA__STEP_TEXT);
-    if (status) {
-        free(read);
-        return status;
-    }
-    *bytes = (char *)read;
-    im->scene->hash += koksma__hash(read, *size) * im->n_files;
-    return KOKSMA_OK;
+    size_t size = 0;
+    koksma__import_path(place, path, full);
+    koksma__import_fail_if(++im->n_files > MOST_INCLUDES, place, "more than %d files are included", MOST_INCLUDES);
+    koksma__import_fail_if(!is_below(im->path, full), place,
+                           "it includes '%s', which is not below the scene's own folder", path);
+    koksma__open_text *text = koksma__import_add(place, &im->texts, &im->n_texts, sizeof *text);
+    koksma__import_check(place, read_text(full, &read, &size));
+    *text = (koksma__open_text){(char *)read, size};
+    koksma__import_hold(place, size);
+    koksma__import_spend(place, size / KOKSMA__STEP_TEXT);
+    im->scene->hash += koksma__hash(read, size) * im->n_files;
+    return *text;
 }
 
-void koksma__import_text_close(koksma__import *im, char *bytes, size_t size)
+void koksma__import_text_close(koksma__import *im)
 {
-    free(bytes);
-    im->held -= size;
+    const koksma__open_text last = im->texts[--im->n_texts];
+    free(last.bytes);
+    im->held -= last.size;
 }

@@ -28,16 +28,11 @@ enum { MOST_NESTED = 16 };
 
 typedef koksma__xml_node node;
 
-/* A value of another type than it is read as, or a node that is looked at when the scene has taken too many steps. */
-typedef struct mistake {
-    const node *at;       /* or NULL */
-    const char *expected; /* NULL: too many steps */
-} mistake;
-
 typedef struct reader {
     koksma__import *im;
+    const char *bytes;
+    size_t size;
     koksma__xml xml;
-    mistake *mistake;         /* the first one */
     koksma__names identities; /* the elements that a <ref> finds; an <alias> leads to another by its attribute "id" */
     int *materials; /* index of the material of each node; -2: not converted yet, -1: light passes through */
     const koksma__plugin **rows; /* for each node: its row of the table; or NULL */
@@ -48,10 +43,7 @@ typedef struct reader {
 
 /* ---- Properties -------------------------------------------------------------------------------------------- */
 
-static bool is(const node *n, const char *tag)
-{
-    return !strcasecmp(n->tag, tag); /* lookAt was the name in Mitsuba 0.6 */
-}
+#define is koksma__mitsuba_is
 
 static const char *type_of(const node *n)
 {
@@ -59,33 +51,37 @@ static const char *type_of(const node *n)
     return type ? type : "";
 }
 
-/* Notes that a value has another type than it is read as. The first one is the error in which reading ends. */
-static void note(const reader *r, const node *n, const char *expected)
+static bool has_type(const node *n, const char *type)
 {
-    if (!r->mistake->at) {
-        *r->mistake = (mistake){n, expected};
+    return !strcmp(type_of(n), type);
+}
+
+/* Fails unless a value has the type that it is read as. */
+static void need(bool is_right, const node *n, const char *expected)
+{
+    if (!is_right) {
+        const char *name = koksma__xml_attribute(n, "name"), *value = koksma__xml_attribute(n, "value");
+        koksma__import_fail(n->place, "%s: <%s> '%.60s' is not %s", name, n->tag, value ? value : "", expected);
     }
 }
 
-/* A node that is looked at, which counts as work with its text; NULL for NULL. A scene that has taken too many steps has
-   no more nodes, so that all loops over them end. */
-static const node *count(const reader *r, const node *n, uint64_t steps)
+/* A node that is looked at, which counts as work with its text; NULL for NULL. */
+static const node *count(const node *n, uint64_t steps)
 {
-    if (n && koksma__import_spend(r->im, n->place, steps + n->length / 16)) {
-        note(r, n, NULL);
-        return NULL;
+    if (n) {
+        koksma__import_spend(n->place, steps + n->length / 16);
     }
     return n;
 }
 
 static const node *first_of(const reader *r, const node *n)
 {
-    return n->first < 0 ? NULL : count(r, &r->xml.nodes[n->first], 1);
+    return n->first < 0 ? NULL : count(&r->xml.nodes[n->first], 1);
 }
 
 static const node *next_of(const reader *r, const node *n)
 {
-    return n->next < 0 ? NULL : count(r, &r->xml.nodes[n->next], 1);
+    return n->next < 0 ? NULL : count(&r->xml.nodes[n->next], 1);
 }
 
 /* Whether elements with this tag are values or objects that a property can be. */
@@ -147,7 +143,9 @@ static const node *property(const reader *r, const node *n, const char *name)
     return found;
 }
 
-/* Warns of what becomes of a node, which covers all that it contains. */
+/* Says in a warning what becomes of a node, which covers all that it contains. */
+#define REPLACE(n, ...) (koksma__xml_mark(n, KOKSMA__XML_COVERED), koksma__import_unknown((n)->place, __VA_ARGS__))
+
 /* What may be meant by the type of an object that the table does not have, or "". */
 static const char *type_meant(const reader *r, const node *n, char *text)
 {
@@ -157,9 +155,7 @@ static const char *type_meant(const reader *r, const node *n, char *text)
                ? text
                : koksma__kind_meant(&koksma__mitsuba_plugins, is_texture(n) ? "texture" : n->tag, type_of(n), text);
 }
-
-#define REPLACE(r, n, ...)                                                                                           \
-    (koksma__xml_mark(n, KOKSMA__XML_COVERED), koksma__import_unknown((r)->im, (n)->place, __VA_ARGS__))
+#define TYPE_MEANT(r, n) type_meant(r, n, (char[KOKSMA__OR_MEANT]){0})
 
 /* Takes the properties that have no effect on the pictures that are made here: those of the row with "~", unless they
    have a default, or a list of values, and another value. */
@@ -182,9 +178,7 @@ static const char *text(const reader *r, const node *n, const char *name)
 {
     const node *c = property(r, n, name);
     const char *value = c && is(c, "string") ? koksma__xml_attribute(c, "value") : NULL;
-    if (c && !value) {
-        note(r, c, "a text");
-    }
+    need(!c || value, c, "a text");
     return value ? value : "";
 }
 
@@ -196,9 +190,9 @@ static size_t choice(const reader *r, const node *n, const char *name)
     const char *value = text(r, n, name);
     const int i = *value && entry_of(r, n, name, &e) ? koksma__entry_choice(&e, value) : 0;
     if (i < 0) {
-        note(r, property(r, n, name), "a value that this property can have");
+        need(false, property(r, n, name), "a value that this property can have");
     }
-    return i < 0 ? 0 : (size_t)i;
+    return (size_t)i;
 }
 
 /* The element to which a <ref> or an <alias> leads, or NULL; any other element is itself. */
@@ -208,7 +202,7 @@ static const node *target(const reader *r, const node *n)
         const char *id = koksma__xml_attribute(n, "id");
         size_t at = 0;
         const bool found = id && hops < MOST_NESTED && koksma__names_find(&r->identities, id, strlen(id), &at);
-        n = count(r, found ? &r->xml.nodes[at] : NULL, 4);
+        n = count(found ? &r->xml.nodes[at] : NULL, 4);
     }
     return n;
 }
@@ -237,29 +231,25 @@ static const node *find_child(const reader *r, const node *c, const char *tag)
     for (const node *c = find_child(r, first_of(r, n), tag); c; c = find_child(r, next_of(r, c), tag))
 
 /* Lists the names of all elements, and checks that each name is given once and that each <ref> leads to one. */
-static koksma_status find_identities(reader *r)
+static void find_identities(reader *r)
 {
+    const node *end = r->xml.nodes + r->xml.n;
     size_t other;
-    for (const node *n = r->xml.nodes; n < r->xml.nodes + r->xml.n; n++) {
+    for (const node *n = r->xml.nodes; n < end; n++) {
         const char *name = koksma__xml_attribute(n, is(n, "alias") ? "as" : "id");
-        if (!name || is(n, "ref")) {
-            continue;
+        if (name && !is(n, "ref")) {
+            koksma__import_fail_if(koksma__names_find(&r->identities, name, strlen(name), &other), n->place,
+                                   "the id '%.60s' is given twice", name);
+            koksma__import_put_name(n->place, &r->identities, name, (size_t)(n - r->xml.nodes));
         }
-        if (koksma__names_find(&r->identities, name, strlen(name), &other)) {
-            return koksma__import_fail(n->place, "the id '%.60s' is given twice", name);
-        }
-        KOKSMA__TRY(koksma__names_put(&r->identities, name, strlen(name), (size_t)(n - r->xml.nodes)));
     }
-    for (const node *n = r->xml.nodes; n < r->xml.nodes + r->xml.n; n++) {
+    for (const node *n = r->xml.nodes; n < end; n++) {
         const node *to = target(r, n);
-        if (!to) {
-            const char *id = koksma__xml_attribute(n, "id");
-            return koksma__import_fail(n->place, "%s: no element has the id '%.60s'", n->tag, id ? id : "");
-        }
-        koksma__xml_mark(to, to != n && is_property(to) ? KOKSMA__XML_TAKEN
-                                                        : 0); /* if nothing takes the <ref>, that is named */
+        const char *id = to ? NULL : koksma__xml_attribute(n, "id");
+        koksma__import_fail_if(!to, n->place, "%s: no element has the id '%.60s'", n->tag, id ? id : "");
+        /* if nothing takes the <ref>, that is named */
+        koksma__xml_mark(to, to != n && is_property(to) ? KOKSMA__XML_TAKEN : 0);
     }
-    return KOKSMA_OK;
 }
 
 /* The default of a property, which its row has. */
@@ -272,71 +262,65 @@ static double otherwise(const reader *r, const node *n, const char *name)
 static double number(const reader *r, const node *n, const char *name)
 {
     const node *c = property(r, n, name), *to = c ? resolve(r, c) : NULL;
-    double x = otherwise(r, n, name);
     if (to && (is(to, "texture") || (koksma__mitsuba_is_colour(to) && !koksma__mitsuba_is_number(to)))) {
         c->marks[0] &= (unsigned char)~KOKSMA__XML_TAKEN; /* it varies, which is not read here */
-    } else if (c && (!koksma__mitsuba_is_number(c) || koksma__mitsuba_number(c, "value", &x))) {
-        note(r, c, "a number");
+        return otherwise(r, n, name);
     }
-    return x;
+    need(!c || koksma__mitsuba_is_number(c), c, "a number");
+    return c ? koksma__mitsuba_number(c, "value") : otherwise(r, n, name);
 }
 
 static bool flag(const reader *r, const node *n, const char *name)
 {
     const node *c = property(r, n, name);
-    bool is_set = otherwise(r, n, name) != 0;
-    if (c && (!is(c, "boolean") || koksma__mitsuba_flag(c, &is_set))) {
-        note(r, c, "true or false");
-    }
-    return is_set;
+    need(!c || is(c, "boolean"), c, "true or false");
+    return c ? koksma__mitsuba_flag(c) : otherwise(r, n, name) != 0;
 }
 
 /* Reads an element of the form <point name x y z> or <point name value="x, y, z">. */
 static void point(const reader *r, const node *n, const char *name, double out[3])
 {
     const node *c = property(r, n, name);
-    if (c && ((!is(c, "point") && !is(c, "vector")) || koksma__mitsuba_triple(c, (double)INFINITY, out))) {
-        note(r, c, "a point or vector");
+    need(!c || is(c, "point") || is(c, "vector"), c, "a point or vector");
+    if (c) {
+        koksma__mitsuba_triple(c, (double)INFINITY, out);
     }
 }
 
 /* ---- Transforms -------------------------------------------------------------------------------------------- */
 
 /* Reads a transform, whose first operation is applied first. */
-static koksma_status transform(const reader *r, const node *n, const char *name, double out[12])
+static void transform(const reader *r, const node *n, const char *name, double out[12])
 {
     const node *t = property(r, n, name);
     memcpy(out, koksma__import_identity, sizeof koksma__import_identity);
-    if (t && !is(t, "animation") && !is(t, "transform")) {
-        note(r, t, "a transform");
-    }
+    need(!t || is(t, "animation") || is(t, "transform"), t, "a transform");
     if (t && is(t, "animation")) {
-        KOKSMA__TRY(REPLACE(r, t, "motion is ignored: the transform of the first time is taken"));
+        REPLACE(t, "motion is ignored: the transform of the first time is taken");
         t = first_of(r, t);
     }
     for (const node *c = t ? first_of(r, t) : NULL; c; c = next_of(r, c)) {
         double by[12], product[12];
         koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-        KOKSMA__TRY(koksma__import_spend(r->im, c->place, 8));
-        KOKSMA__TRY(koksma__mitsuba_operation(c, by));
+        koksma__import_spend(c->place, 8);
+        koksma__mitsuba_operation(c, by);
         koksma__matrix_multiply(by, out, product);
         memcpy(out, product, sizeof product);
     }
-    return KOKSMA_OK;
 }
 
 /* ---- Colours and textures ----------------------------------------------------------------------------------- */
 
-static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use, double rgb[3])
+static void value_of(const node *n, koksma__spectrum_use use, double rgb[3])
 {
-    koksma__mitsuba_colour c;
     if (!koksma__mitsuba_is_colour(n)) {
         rgb[0] = rgb[1] = rgb[2] = 1;
-        return koksma__xml_attribute(n, "type") ? REPLACE(r, n, "'%s' is replaced by white where a colour is", n->tag)
-                                                : koksma__import_fail(n->place, "<%s> is not a colour", n->tag);
+        koksma__import_fail_if(!koksma__xml_attribute(n, "type"), n->place, "<%s> is not a colour", n->tag);
+        REPLACE(n, "'%s' is replaced by white where a colour is", n->tag);
+        return;
     }
-    KOKSMA__TRY(koksma__import_spend(r->im, n->place, is(n, "spectrum") ? KOKSMA__SPECTRUM_STEPS : 0));
-    KOKSMA__TRY(koksma__mitsuba_colour_read(n, &c));
+    koksma__import_spend(n->place, is(n, "spectrum") ? KOKSMA__SPECTRUM_STEPS : 0);
+    koksma__mitsuba_colour c = koksma__mitsuba_colour_read(n);
     if (c.form == KOKSMA__ONE_NUMBER && use == KOKSMA__EMISSION && is(n, "spectrum")) {
         /* one number stands for the same emission at all wavelengths */
         c.form = KOKSMA__PAIRS;
@@ -345,186 +329,21 @@ static koksma_status value_of(reader *r, const node *n, koksma__spectrum_use use
     }
     if (c.form == KOKSMA__PAIRS) {
         koksma__sampled_spectrum_colour(&c.pairs, use, rgb);
-        return KOKSMA_OK;
+        return;
     }
     const double low = fmin(fmin(c.rgb[0], c.rgb[1]), c.rgb[2]), high = fmax(fmax(c.rgb[0], c.rgb[1]), c.rgb[2]);
-    KOKSMA__TRY(koksma__import_unknown_if(use == KOKSMA__REFLECTANCE && (low < 0 || high > 1), r->im, n->place,
-                                          "a reflectance beyond 0 to 1 is clamped"));
+    koksma__import_unknown_if(use == KOKSMA__REFLECTANCE && (low < 0 || high > 1), n->place,
+                              "a reflectance beyond 0 to 1 is clamped");
     for (int k = 0; k < 3; k++) {
         rgb[k] = c.form == KOKSMA__NO_COLOUR ? 1 : c.rgb[k];
     }
-    return c.form == KOKSMA__NO_COLOUR ? koksma__import_unknown(r->im, n->place, "a spectrum is replaced by white")
-           : c.form == KOKSMA__BLACK_BODY
-               ? koksma__import_unknown(r->im, n->place, "a black body is replaced by its colour with luminance 1")
-               : KOKSMA_OK;
+    koksma__import_unknown_if(c.form == KOKSMA__NO_COLOUR, n->place, "a spectrum is replaced by white");
+    koksma__import_unknown_if(c.form == KOKSMA__BLACK_BODY, n->place,
+                              "a black body is replaced by its colour with luminance 1");
 }
 
-static koksma_status colour(reader *r, const node *n, const char *name, koksma__import_colour *out, int depth);
-static koksma_status colour_for(reader *r, const node *n, const char *name, koksma__spectrum_use use,
-                                koksma__import_colour *out, int depth);
-
-/* Reads a texture's transform of the plane z = 0: the third row and column have no effect. */
-static koksma_status set_matrix(reader *r, const node *n, koksma__mapping *to)
-{
-    /* in place of to_uv, Mitsuba 0.6 has four numbers, of which Mitsuba 3 moves by the offsets first */
-    static const char *const older[] = {"uscale", "vscale", "uoffset", "voffset"};
-    static const float unmoved[6] = {1, 0, 0, 0, 1, 0};
-    const node *t = property(r, n, "to_uv");
-    double m[12], by[4] = {1, 1, 0, 0}, all[6];
-    KOKSMA__TRY(transform(r, n, "to_uv", m));
-    for (size_t i = 0; !t && i < 4; i++) {
-        by[i] = number(r, n, older[i]);
-    }
-    for (int i = 0; i < 6; i++) {
-        all[i] = by[i / 3] * (m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)] + (i % 3 == 2 ? by[2 + i / 3] : 0));
-        to->matrix[i] = (float)all[i];
-    }
-    to->moved = memcmp(to->matrix, unmoved, sizeof unmoved) != 0;
-    return koksma__import_check_uv(t ? t->place : n->place, all, 6);
-}
-
-/* Reads how an image is mapped. */
-static koksma_status set_mapping(reader *r, const node *n, koksma__mapping *to)
-{
-    /* Mitsuba 0.6 has four values more: it filters by MIP maps unless the file says "nearest" */
-    static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR,
-                                         KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP};
-    const size_t wrap = choice(r, n, "wrap_mode"), filter = choice(r, n, "filter_type");
-    to->wrap[0] = to->wrap[1] = kinds[wrap];
-    to->nearest = filter == 1;
-    KOKSMA__TRY(koksma__import_unknown_if(
-        wrap > 2, r->im, n->place, "a texture's wrap mode '%s' is replaced by 'clamp'", text(r, n, "wrap_mode")));
-    KOKSMA__TRY(koksma__import_unknown_if(
-        filter > 1, r->im, n->place, "a texture's filter '%s' is replaced by 'bilinear'", text(r, n, "filter_type")));
-    return set_matrix(r, n, to);
-}
-
-/* Fails if an object lacks a property that Mitsuba has no default for. */
-static koksma_status check_needed(const reader *r, const node *n)
-{
-    const char *at = row_of(r, n)->parameters;
-    koksma__entry e = {.type = NULL};
-    while (koksma__entry_next(&at, &e)) {
-        if (e.is_needed && !find_property(r, n, &e)) {
-            return koksma__import_fail(n->place, "%s '%s': no '%.*s'", n->tag, type_of(n), (int)e.length, e.name);
-        }
-    }
-    return KOKSMA_OK;
-}
-
-static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
-                             int depth);
-
-/* Reads the spectrum "d65", daylight times a colour or texture. Daylight itself is white, and samples are its factors:
-   those of 1 everywhere leave it white, also in a light. */
-static koksma_status in_daylight(reader *r, const node *n, koksma__import_colour *out, int depth)
-{
-    const double scale = number(r, n, "scale");
-    const node *inner = NULL;
-    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
-        if (is_texture(resolve(r, c))) {
-            KOKSMA__TRY(inner ? koksma__import_fail(c->place, "spectrum 'd65': more than one texture") : KOKSMA_OK);
-            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
-            inner = resolve(r, c);
-        }
-    }
-    KOKSMA__TRY(inner ? texture(r, inner, KOKSMA__UNBOUNDED, out, depth + 1) : colour(r, n, "color", out, depth + 1));
-    for (int k = 0; k < 3; k++) {
-        out->rgb[k] *= scale;
-        out->second[k] *= scale;
-    }
-    out->image_scale *= scale;
-    return KOKSMA_OK;
-}
-
-/* Reads the spectra "regular" and "irregular": samples at equal distances, or at those that are listed. */
-static koksma_status samples(reader *r, const node *n, bool regular, koksma__spectrum_use use, double rgb[3])
-{
-    const node *pairs = property(r, n, "value"), *values = property(r, n, "values");
-    const node *wavelengths = property(r, n, "wavelengths");
-    koksma__sampled_spectrum s = {0};
-    if (pairs) {
-        return value_of(r, resolve(r, pairs), use, rgb);
-    }
-    KOKSMA__TRY(check_needed(r, n));
-    KOKSMA__TRY(koksma__import_spend(r->im, n->place, KOKSMA__SPECTRUM_STEPS));
-    (void)text(r, n, "values");
-    (void)text(r, n, "wavelengths");
-    const double from = regular ? number(r, n, "wavelength_min") : 0,
-                 to = regular ? number(r, n, "wavelength_max") : 0;
-    KOKSMA__TRY(koksma__mitsuba_samples(values, wavelengths, from, to, &s));
-    koksma__sampled_spectrum_colour(&s, use, rgb);
-    return KOKSMA_OK;
-}
-
-static koksma_status bitmap(reader *r, const node *n, koksma__import_colour *out)
-{
-    const char *name = text(r, n, "filename"), *dot = strrchr(name, '.');
-    const bool linear = dot && (!strcasecmp(dot, ".exr") || !strcasecmp(dot, ".pfm"));
-    KOKSMA__TRY(koksma__import_unknown_if(flag(r, n, "raw") && !linear, r->im, n->place,
-                                          "a texture's 'raw' is ignored: its levels are sRGB"));
-    KOKSMA__TRY(set_mapping(r, n, &out->mapping));
-    out->image_scale = 1;
-    return koksma__import_path(r->im, n->place, name, out->image);
-}
-
-static koksma_status checkerboard(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
-                                  int depth)
-{
-    koksma__import_colour second;
-    const koksma__spectrum_use each = use == KOKSMA__REFLECTANCE ? use : KOKSMA__UNBOUNDED;
-    KOKSMA__TRY(colour_for(r, n, "color0", each, out, depth + 1));
-    KOKSMA__TRY(colour_for(r, n, "color1", each, &second, depth + 1));
-    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, out));
-    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a texture in a checkerboard", use, &second));
-    KOKSMA__TRY(set_matrix(r, n, &out->mapping));
-    memcpy(out->second, second.rgb, sizeof second.rgb);
-    out->is_checker = true;
-    out->period = 0.5;
-    return KOKSMA_OK;
-}
-
-/* Reads the object of a texture, or of a spectrum as the RGB variants of Mitsuba do, and sampled ones as the observer sees
-   them. */
-static koksma_status texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out,
-                             int depth)
-{
-    const koksma__plugin *row = row_of(r, n);
-    double value;
-    if (depth > MOST_NESTED) {
-        return koksma__import_fail(n->place, "textures are nested more than %d deep", MOST_NESTED);
-    }
-    if (!row) {
-        out->rgb[0] = is(n, "spectrum") ? 1 : out->rgb[0];
-        out->rgb[1] = out->rgb[2] = out->rgb[0];
-        return REPLACE(r, n, "%s '%s' is replaced by %s%s", n->tag, type_of(n), is(n, "spectrum") ? "white" : "grey",
-                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
-    }
-    KOKSMA__TRY(row->makes == KOKSMA__REGULAR || row->makes == KOKSMA__IRREGULAR ? KOKSMA_OK : check_needed(r, n));
-    pass(r, n);
-    switch (row->makes) {
-    case KOKSMA__BITMAP:
-        return bitmap(r, n, out);
-    case KOKSMA__CHECKERBOARD:
-        return checkerboard(r, n, use, out, depth);
-    case KOKSMA__D65:
-        return in_daylight(r, n, out, depth);
-    case KOKSMA__SRGB:
-        return colour(r, n, "color", out, depth + 1);
-    case KOKSMA__UNIFORM:
-        out->rgb[0] = out->rgb[1] = out->rgb[2] = number(r, n, "value");
-        return KOKSMA_OK;
-    case KOKSMA__TEMPERATURE:
-        value = number(r, n, "temperature");
-        if (!(value > 0)) {
-            return koksma__import_fail(n->place, "a temperature of %g kelvins; it must be above 0", value);
-        }
-        koksma__import_black_body(value, out->rgb);
-        return koksma__import_unknown(r->im, n->place, "a black body is replaced by %s", row->instead);
-    default:
-        return samples(r, n, row->makes == KOKSMA__REGULAR, use, out->rgb);
-    }
-}
+static koksma__import_colour colour_for(reader *r, const node *n, const char *name, koksma__spectrum_use use,
+                                        int depth);
 
 /* What the samples of a property are. Those of the spectra "d65" and "srgb" are factors of daylight, also in a light;
    in media they are coefficients (an albedo is bounded where it is used). */
@@ -535,24 +354,187 @@ static koksma__spectrum_use use_of(const node *n, const char *name)
     return is(n, "emitter") ? KOKSMA__EMISSION : unbounded ? KOKSMA__UNBOUNDED : KOKSMA__REFLECTANCE;
 }
 
-/* Reads the colour or texture with this name; without one, *out is grey with the row's default. */
-static koksma_status colour_for(reader *r, const node *n, const char *name, koksma__spectrum_use use,
-                                koksma__import_colour *out, int depth)
+static koksma__import_colour colour(reader *r, const node *n, const char *name)
+{
+    return colour_for(r, n, name, use_of(n, name), 0);
+}
+
+/* Reads a texture's transform of the plane z = 0: the third row and column have no effect. */
+static void set_matrix(reader *r, const node *n, koksma__mapping *to)
+{
+    /* in place of to_uv, Mitsuba 0.6 has four numbers, of which Mitsuba 3 moves by the offsets first */
+    static const char *const older[] = {"uscale", "vscale", "uoffset", "voffset"};
+    static const float unmoved[6] = {1, 0, 0, 0, 1, 0};
+    const node *t = property(r, n, "to_uv");
+    double m[12], by[4] = {1, 1, 0, 0}, all[6];
+    transform(r, n, "to_uv", m);
+    for (size_t i = 0; !t && i < 4; i++) {
+        by[i] = number(r, n, older[i]);
+    }
+    for (int i = 0; i < 6; i++) {
+        all[i] = by[i / 3] * (m[i / 3 * 4 + (i % 3 < 2 ? i % 3 : 3)] + (i % 3 == 2 ? by[2 + i / 3] : 0));
+        to->matrix[i] = (float)all[i];
+    }
+    to->moved = memcmp(to->matrix, unmoved, sizeof unmoved) != 0;
+    koksma__import_check_uv(t ? t->place : n->place, all, 6);
+}
+
+/* Reads how an image is mapped. */
+static void set_mapping(reader *r, const node *n, koksma__mapping *to)
+{
+    /* Mitsuba 0.6 has four values more: it filters by MIP maps unless the file says "nearest" */
+    static const koksma__wrap kinds[] = {KOKSMA__WRAP_REPEAT, KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_MIRROR,
+                                         KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP};
+    const size_t wrap = choice(r, n, "wrap_mode"), filter = choice(r, n, "filter_type");
+    to->wrap[0] = to->wrap[1] = kinds[wrap];
+    to->nearest = filter == 1;
+    koksma__import_unknown_if(wrap > 2, n->place, "a texture's wrap mode '%s' is replaced by 'clamp'",
+                              text(r, n, "wrap_mode"));
+    koksma__import_unknown_if(filter > 1, n->place, "a texture's filter '%s' is replaced by 'bilinear'",
+                              text(r, n, "filter_type"));
+    set_matrix(r, n, to);
+}
+
+/* Fails if an object lacks a property that Mitsuba has no default for. */
+static void check_needed(const reader *r, const node *n)
+{
+    const char *at = row_of(r, n)->parameters;
+    koksma__entry e = {.type = NULL};
+    while (koksma__entry_next(&at, &e)) {
+        koksma__import_fail_if(e.is_needed && !find_property(r, n, &e), n->place, "%s '%s': no '%.*s'", n->tag,
+                               type_of(n), (int)e.length, e.name);
+    }
+}
+
+static void texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out, int depth);
+
+/* Reads the spectrum "d65", daylight times a colour or texture. Daylight itself is white, and samples are its factors:
+   those of 1 everywhere leave it white, also in a light. */
+static void in_daylight(reader *r, const node *n, koksma__import_colour *out, int depth)
+{
+    const double scale = number(r, n, "scale");
+    const node *inner = NULL;
+    for (const node *c = first_of(r, n); c; c = next_of(r, c)) {
+        if (is_texture(resolve(r, c))) {
+            koksma__import_fail_if(inner, c->place, "spectrum 'd65': more than one texture");
+            koksma__xml_mark(c, KOKSMA__XML_TAKEN);
+            inner = resolve(r, c);
+        }
+    }
+    if (inner) {
+        texture(r, inner, KOKSMA__UNBOUNDED, out, depth + 1);
+    } else {
+        *out = colour_for(r, n, "color", use_of(n, "color"), depth + 1);
+    }
+    for (int k = 0; k < 3; k++) {
+        out->rgb[k] *= scale;
+        out->second[k] *= scale;
+    }
+    out->image_scale *= scale;
+}
+
+/* Reads the spectra "regular" and "irregular": samples at equal distances, or at those that are listed. */
+static void samples(reader *r, const node *n, bool regular, koksma__spectrum_use use, double rgb[3])
+{
+    const node *pairs = property(r, n, "value"), *values = property(r, n, "values");
+    const node *wavelengths = property(r, n, "wavelengths");
+    if (pairs) {
+        value_of(resolve(r, pairs), use, rgb);
+        return;
+    }
+    check_needed(r, n);
+    koksma__import_spend(n->place, KOKSMA__SPECTRUM_STEPS);
+    (void)text(r, n, "values");
+    (void)text(r, n, "wavelengths");
+    const double from = regular ? number(r, n, "wavelength_min") : 0,
+                 to = regular ? number(r, n, "wavelength_max") : 0;
+    const koksma__sampled_spectrum s = koksma__mitsuba_samples(values, wavelengths, from, to);
+    koksma__sampled_spectrum_colour(&s, use, rgb);
+}
+
+static void bitmap(reader *r, const node *n, koksma__import_colour *out)
+{
+    const char *name = text(r, n, "filename"), *dot = strrchr(name, '.');
+    const bool linear = dot && (!strcasecmp(dot, ".exr") || !strcasecmp(dot, ".pfm"));
+    koksma__import_unknown_if(flag(r, n, "raw") && !linear, n->place,
+                              "a texture's 'raw' is ignored: its levels are sRGB");
+    set_mapping(r, n, &out->mapping);
+    out->image_scale = 1;
+    koksma__import_path(n->place, name, out->image);
+}
+
+static void checkerboard(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out, int depth)
+{
+    const koksma__spectrum_use each = use == KOKSMA__REFLECTANCE ? use : KOKSMA__UNBOUNDED;
+    *out = colour_for(r, n, "color0", each, depth + 1);
+    koksma__import_colour second = colour_for(r, n, "color1", each, depth + 1);
+    koksma__import_mean(n->place, "a texture in a checkerboard", use, out);
+    koksma__import_mean(n->place, "a texture in a checkerboard", use, &second);
+    set_matrix(r, n, &out->mapping);
+    memcpy(out->second, second.rgb, sizeof second.rgb);
+    out->is_checker = true;
+    out->period = 0.5;
+}
+
+/* Reads the object of a texture, or of a spectrum as the RGB variants of Mitsuba do, and sampled ones as the observer sees
+   them. */
+static void texture(reader *r, const node *n, koksma__spectrum_use use, koksma__import_colour *out, int depth)
+{
+    const koksma__plugin *row = row_of(r, n);
+    double value;
+    koksma__import_fail_if(depth > MOST_NESTED, n->place, "textures are nested more than %d deep", MOST_NESTED);
+    if (!row) {
+        out->rgb[0] = is(n, "spectrum") ? 1 : out->rgb[0];
+        out->rgb[1] = out->rgb[2] = out->rgb[0];
+        REPLACE(n, "%s '%s' is replaced by %s%s", n->tag, type_of(n), is(n, "spectrum") ? "white" : "grey",
+                TYPE_MEANT(r, n));
+        return;
+    }
+    if (row->makes != KOKSMA__REGULAR && row->makes != KOKSMA__IRREGULAR) {
+        check_needed(r, n);
+    }
+    pass(r, n);
+    switch (row->makes) {
+    case KOKSMA__BITMAP:
+        bitmap(r, n, out);
+        break;
+    case KOKSMA__CHECKERBOARD:
+        checkerboard(r, n, use, out, depth);
+        break;
+    case KOKSMA__D65:
+        in_daylight(r, n, out, depth);
+        break;
+    case KOKSMA__SRGB:
+        *out = colour_for(r, n, "color", use_of(n, "color"), depth + 1);
+        break;
+    case KOKSMA__UNIFORM:
+        out->rgb[0] = out->rgb[1] = out->rgb[2] = number(r, n, "value");
+        break;
+    case KOKSMA__TEMPERATURE:
+        value = number(r, n, "temperature");
+        koksma__import_fail_if(!(value > 0), n->place, "a temperature of %g kelvins; it must be above 0", value);
+        koksma__import_black_body(value, out->rgb);
+        koksma__import_unknown(n->place, "a black body is replaced by %s", row->instead);
+        break;
+    default:
+        samples(r, n, row->makes == KOKSMA__REGULAR, use, out->rgb);
+    }
+}
+
+/* Reads the colour or texture with this name; without one, it is grey with the row's default. */
+static koksma__import_colour colour_for(reader *r, const node *n, const char *name, koksma__spectrum_use use,
+                                        int depth)
 {
     const node *found = property(r, n, name);
     const double grey = otherwise(r, n, name);
-    *out = (koksma__import_colour){.rgb = {grey, grey, grey}, .period = 1};
-    if (!found) {
-        return KOKSMA_OK;
+    koksma__import_colour out = {.rgb = {grey, grey, grey}, .period = 1};
+    found = found ? resolve(r, found) : NULL;
+    if (found && is_texture(found)) {
+        texture(r, found, use, &out, depth);
+    } else if (found) {
+        value_of(found, use, out.rgb);
     }
-    found = resolve(r, found);
-    return is_texture(found) ? texture(r, found, use, out, depth) : value_of(r, found, use, out->rgb);
-}
-
-/* The same, for what the name says. */
-static koksma_status colour(reader *r, const node *n, const char *name, koksma__import_colour *out, int depth)
-{
-    return colour_for(r, n, name, use_of(n, name), out, depth);
+    return out;
 }
 
 /* ---- BSDFs ------------------------------------------------------------------------------------------------- */
@@ -562,233 +544,204 @@ static double index_of(const reader *r, const node *n, const char *name)
 {
     const node *c = property(r, n, name);
     double ior;
-    if (c && is(c, "string") && koksma__mitsuba_index(text(r, n, name), &ior)) {
-        return ior;
-    }
-    ior = number(r, n, name);
-    if (!(ior > 0)) {
-        note(r, c, "an index of refraction; it must be above 0");
+    if (!c || !is(c, "string") || !koksma__mitsuba_index(text(r, n, name), &ior)) {
+        ior = number(r, n, name);
+        need(ior > 0, c, "an index of refraction; it must be above 0");
     }
     return ior;
 }
 
-/* Reads eta or k of a metal. An object that is not one colour, or a spectrum in a file, is not read and makes *is_constant
-   false. */
-static koksma_status constant(reader *r, const node *n, const char *name, bool *is_constant, double rgb[3])
+/* Reads eta or k of a metal. Returns false if it is not one colour, or a spectrum in a file, which is not read. */
+static bool constant(reader *r, const node *n, const char *name, double rgb[3])
 {
     const node *found = property(r, n, name), *to = found ? resolve(r, found) : NULL;
-    koksma__import_colour c;
     const bool is_object = to && !koksma__mitsuba_is_colour(to) && koksma__xml_attribute(to, "type");
     const bool is_file = to && is(to, "spectrum") && koksma__xml_attribute(to, "filename");
     if (to && is_texture(to) ? !row_of(r, to) || row_of(r, to)->makes < KOKSMA__D65 : is_object || is_file) {
-        *is_constant = false;
         koksma__xml_mark(found, KOKSMA__XML_COVERED);
-        return KOKSMA_OK;
+        return false;
     }
-    KOKSMA__TRY(colour(r, n, name, &c, 0));
-    *is_constant &= !*c.image && !c.is_checker;
+    const koksma__import_colour c = colour(r, n, name);
     memcpy(rgb, c.rgb, sizeof c.rgb);
-    return KOKSMA_OK;
+    return !*c.image && !c.is_checker;
 }
 
 /* A metal has one colour. */
-static koksma_status mean_of_metal(reader *r, const node *n, koksma__import_material *m)
+static void mean_of_metal(const node *n, koksma__import_material *m)
 {
-    return m->kind == KOKSMA__METAL
-               ? koksma__import_mean(r->im, n->place, "a metal's texture", KOKSMA__REFLECTANCE, &m->colour)
-               : KOKSMA_OK;
+    if (m->kind == KOKSMA__METAL) {
+        koksma__import_mean(n->place, "a metal's texture", KOKSMA__REFLECTANCE, &m->colour);
+    }
 }
 
 /* Reads what a metal is made of: a name, or eta and k. Those metals whose constants Mitsuba does not have reflect as tables
    of import.c say, by Schlick's approximation. */
-static koksma_status metal(reader *r, const node *n, koksma__import_material *m)
+static void metal(reader *r, const node *n, koksma__import_material *m)
 {
     double rgb[3];
-    KOKSMA__TRY(mean_of_metal(r, n, m));
+    mean_of_metal(n, m);
     bool is_constant = true;
     const char *given = text(r, n, "material"), *name = *given || property(r, n, "eta") ? given : "none";
     m->has_index = !*name || koksma__mitsuba_conductor(name, m->eta, m->k);
     if (!*name) {
-        KOKSMA__TRY(constant(r, n, "eta", &is_constant, m->eta));
-        KOKSMA__TRY(constant(r, n, "k", &is_constant, m->k));
+        is_constant = constant(r, n, "eta", m->eta);
+        is_constant &= constant(r, n, "k", m->k);
     } else if (!m->has_index && koksma__import_metal(name, rgb)) {
         for (int i = 0; i < 3; i++) {
             m->colour.rgb[i] *= rgb[i];
         }
-        return koksma__import_unknown_if(strcmp(name, "none") != 0, r->im, n->place,
-                                         "metal '%s' has Schlick's reflectance", name);
+        koksma__import_unknown_if(strcmp(name, "none") != 0, n->place, "metal '%s' has Schlick's reflectance", name);
+        return;
     }
+    koksma__import_unknown_if(!m->has_index, n->place, "metal '%s' is replaced by chromium", name);
+    koksma__import_unknown_if(m->has_index && !is_constant, n->place,
+                              "a metal whose eta or k varies or is in a file is replaced by chromium");
     if (!m->has_index || !is_constant) {
-        KOKSMA__TRY(
-            m->has_index
-                ? koksma__import_unknown(r->im, n->place,
-                                         "a metal whose eta or k varies or is in a file is replaced by chromium")
-                : koksma__import_unknown(r->im, n->place, "metal '%s' is replaced by chromium", name));
         m->has_index = koksma__mitsuba_conductor("Cr", m->eta, m->k);
     }
-    return KOKSMA_OK;
 }
 
-static koksma_status principled(reader *r, const node *n, int *out)
+static int principled(reader *r, const node *n)
 {
-    koksma__import_material m = {.ior = 1.5};
-    KOKSMA__TRY(colour(r, n, "base_color", &m.colour, 0));
+    koksma__import_material m = {.colour = colour(r, n, "base_color")};
     const double roughness = number(r, n, "roughness");
     m.alpha = roughness * roughness;
     m.ior = index_of(r, n, "eta");
     m.kind = number(r, n, "metallic") > 0.5     ? KOKSMA__METAL
              : number(r, n, "spec_trans") > 0.5 ? KOKSMA__GLASS
                                                 : KOKSMA__COATED;
-    KOKSMA__TRY(mean_of_metal(r, n, &m));
-    return koksma__import_add_material(r->im, n->place, &m, out);
+    mean_of_metal(n, &m);
+    return koksma__import_material_of(n->place, &m);
 }
 
-static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out);
+static int make_bsdf(reader *r, const node *n, int depth);
 
 /* Makes a BSDF that light meets only in part ("mask"), or a blend of two ("blendbsdf"). */
-static koksma_status blend(reader *r, const node *n, int depth, int *out)
+static int blend(reader *r, const node *n, int depth)
 {
     const bool masks = row_of(r, n)->makes == KOKSMA__MASK;
     const node *first = find_child(r, first_of(r, n), "bsdf"),
                *second = first ? find_child(r, next_of(r, first), "bsdf") : NULL;
-    koksma__import_colour share;
-    int other = -1;
-    if (!first || (!masks && !second)) {
-        return koksma__import_fail(n->place, "bsdf '%s': it has %s within it", type_of(n),
-                                   masks ? "no BSDF" : "less than two BSDFs");
-    }
-    KOKSMA__TRY(check_needed(r, n));
-    KOKSMA__TRY(colour(r, n, masks ? "opacity" : "weight", &share, 0));
-    KOKSMA__TRY(make_bsdf(r, resolve(r, first), depth + 1, out));
-    if (masks) {
-        return koksma__import_mask(r->im, n->place, &share, out);
-    }
-    KOKSMA__TRY(make_bsdf(r, resolve(r, second), depth + 1, &other));
-    return koksma__import_mix(r->im, n->place, *out, other, &share, out);
+    koksma__import_fail_if(!first || (!masks && !second), n->place, "bsdf '%s': it has %s within it", type_of(n),
+                           masks ? "no BSDF" : "less than two BSDFs");
+    check_needed(r, n);
+    koksma__import_colour share = colour(r, n, masks ? "opacity" : "weight");
+    const int material = make_bsdf(r, resolve(r, first), depth + 1);
+    return masks ? koksma__import_mask(n->place, material, &share)
+                 : koksma__import_mix(n->place, material, make_bsdf(r, resolve(r, second), depth + 1), &share);
 }
 
 /* Makes a BSDF that is replaced by the first BSDF inside it; a second one is that of the back of "twosided". */
-static koksma_status within(reader *r, const node *n, const node *inner, int depth, int *out)
+static int within(reader *r, const node *n, int depth)
 {
+    const node *inner = depth < MOST_NESTED ? find_child(r, first_of(r, n), "bsdf") : NULL;
+    koksma__import_fail_if(!inner, n->place, "bsdf '%s': it has no BSDF within it", type_of(n));
     const node *back = row_of(r, n)->instead ? NULL : find_child(r, next_of(r, inner), "bsdf");
-    if (back && resolve(r, back) != resolve(r, inner)) {
-        KOKSMA__TRY(
-            koksma__import_unknown(r->im, back->place, "the BSDF of a back is replaced by that of the front"));
-    }
-    return make_bsdf(r, resolve(r, inner), depth + 1, out);
+    koksma__import_unknown_if(back && resolve(r, back) != resolve(r, inner), back ? back->place : n->place,
+                              "the BSDF of a back is replaced by that of the front");
+    return make_bsdf(r, resolve(r, inner), depth + 1);
 }
 
 /* Makes a BSDF of the kinds that koksma__import_material has; its colour comes first in its row. */
-static koksma_status plain_bsdf(reader *r, const node *n, koksma__import_material *m, int *out)
+static int plain_bsdf(reader *r, const node *n)
 {
-    const char *at = row_of(r, n)->parameters, *type = type_of(n);
+    const char *at = row_of(r, n)->parameters;
     char name[40];
     koksma__entry e = {.type = NULL};
     koksma__entry_next(&at, &e);
     snprintf(name, sizeof name, "%.*s", (int)e.length, e.name);
-    KOKSMA__TRY(colour(r, n, name, &m->colour, 0));
-    if (m->kind == KOKSMA__GLASS &&
-        !koksma__import_is_white(&m->colour)) { /* a tint would colour what it reflects as well */
-        KOKSMA__TRY(koksma__import_unknown(r->im, n->place, "a glass's '%s' is ignored", name));
+    koksma__import_material m = {.kind = (unsigned)row_of(r, n)->makes, .colour = colour(r, n, name)};
+    const bool is_white = !*m.colour.image && !m.colour.is_checker && m.colour.rgb[0] == 1 && m.colour.rgb[1] == 1 &&
+                          m.colour.rgb[2] == 1;
+    /* a tint would colour what it reflects as well */
+    koksma__import_unknown_if(m.kind == KOKSMA__GLASS && !is_white, n->place, "a glass's '%s' is ignored", name);
+    if (m.kind == KOKSMA__METAL) {
+        metal(r, n, &m);
     }
-    KOKSMA__TRY(m->kind == KOKSMA__METAL ? metal(r, n, m) : KOKSMA_OK);
     const double both = number(r, n, "alpha");
     const double u = property(r, n, "alpha_u") ? number(r, n, "alpha_u") : both;
     const double v = property(r, n, "alpha_v") ? number(r, n, "alpha_v") : both;
-    m->alpha = sqrt(fmax(u * v, 0));
-    if (m->kind == KOKSMA__GLASS || m->kind == KOKSMA__COATED) {
-        m->ior = index_of(r, n, "int_ior") / index_of(r, n, "ext_ior");
+    m.alpha = sqrt(fmax(u * v, 0));
+    if (m.kind == KOKSMA__GLASS || m.kind == KOKSMA__COATED) {
+        m.ior = index_of(r, n, "int_ior") / index_of(r, n, "ext_ior");
     }
-    KOKSMA__TRY(koksma__import_unknown_if(!strncmp(type, "rough", 5) && entry_of(r, n, "distribution", &e) &&
-                                              choice(r, n, "distribution") != 1,
-                                          r->im, n->place, "Beckmann's distribution is replaced by GGX"));
-    KOKSMA__TRY(koksma__import_unknown_if(u != v, r->im, n->place, "anisotropic roughness is replaced by its mean"));
-    return koksma__import_add_material(r->im, n->place, m, out);
+    koksma__import_unknown_if(!strncmp(type_of(n), "rough", 5) && entry_of(r, n, "distribution", &e) &&
+                                  choice(r, n, "distribution") != 1,
+                              n->place, "Beckmann's distribution is replaced by GGX");
+    koksma__import_unknown_if(u != v, n->place, "anisotropic roughness is replaced by its mean");
+    return koksma__import_material_of(n->place, &m);
 }
 
-static koksma_status make_bsdf(reader *r, const node *n, int depth, int *out)
+static int make_bsdf(reader *r, const node *n, int depth)
 {
     const koksma__plugin *row = row_of(r, n);
-    const bool is_known = *row->kinds != '?', nests = depth < MOST_NESTED;
-    const node *inner = row->makes == KOKSMA__WITHIN && nests ? find_child(r, first_of(r, n), "bsdf") : NULL;
-    koksma__import_material m = {.kind = (unsigned)row->makes};
-    *out = -1;
-    KOKSMA__TRY(koksma__import_unknown_if(row->instead, r->im, n->place, "BSDF '%s' is replaced by %s%s", type_of(n),
-                                          row->instead, type_meant(r, n, (char[KOKSMA__OR_MEANT]){0})));
-    if (row->instead && (!is_known || row->makes == KOKSMA__NOTHING || row->makes == KOKSMA__WITHIN)) {
+    koksma__import_unknown_if(row->instead, n->place, "BSDF '%s' is replaced by %s%s", type_of(n), row->instead,
+                              TYPE_MEANT(r, n));
+    if (row->instead && (*row->kinds == '?' || row->makes == KOKSMA__NOTHING || row->makes == KOKSMA__WITHIN)) {
         koksma__xml_mark(n, KOKSMA__XML_COVERED);
     }
     pass(r, n);
     switch (row->makes) {
     case KOKSMA__NOTHING:
-        return KOKSMA_OK;
+        return -1;
     case KOKSMA__WITHIN:
-        return inner ? within(r, n, inner, depth, out)
-                     : koksma__import_fail(n->place, "bsdf '%s': it has no BSDF within it", type_of(n));
+        return within(r, n, depth);
     case KOKSMA__MASK:
     case KOKSMA__BLEND:
-        return nests ? blend(r, n, depth, out)
-                     : koksma__import_fail(n->place, "BSDFs are nested more than %d deep", MOST_NESTED);
+        koksma__import_fail_if(depth >= MOST_NESTED, n->place, "BSDFs are nested more than %d deep", MOST_NESTED);
+        return blend(r, n, depth);
     case KOKSMA__PRINCIPLED:
-        return principled(r, n, out);
+        return principled(r, n);
     default:
-        return plain_bsdf(r, n, &m, out);
+        return plain_bsdf(r, n);
     }
-}
-
-static koksma_status find_bsdf(reader *r, const node *n, int *out)
-{
-    int *known = &r->materials[n - r->xml.nodes];
-    KOKSMA__TRY(*known == -2 ? make_bsdf(r, n, 0, known) : KOKSMA_OK);
-    *out = *known;
-    return KOKSMA_OK;
 }
 
 /* ---- Shapes ------------------------------------------------------------------------------------------------ */
 
 /* Mitsuba samples no light of weight 0; here all lights are sampled. */
-static koksma_status weight(reader *r, const node *n)
+static void weight(reader *r, const node *n)
 {
-    return number(r, n, "sampling_weight") > 0
-               ? KOKSMA_OK
-               : koksma__import_unknown(r->im, n->place, "a light whose sampling weight is 0 is sampled");
+    koksma__import_unknown_if(!(number(r, n, "sampling_weight") > 0), n->place,
+                              "a light whose sampling weight is 0 is sampled");
 }
 
 /* Reads a light of a surface whose material is known: its radiance may be an image. */
-static koksma_status area_light(reader *r, const node *n, koksma__import_surface *surface)
+static void area_light(reader *r, const node *n, koksma__import_surface *surface)
 {
-    koksma__import_colour radiance;
-    KOKSMA__TRY(weight(r, n));
-    KOKSMA__TRY(colour(r, n, "radiance", &radiance, 0));
-    KOKSMA__TRY(koksma__import_glow(r->im, n->place, &radiance, surface));
+    weight(r, n);
+    koksma__import_colour radiance = colour(r, n, "radiance");
+    koksma__import_glow(n->place, &radiance, surface);
     if (!*radiance.image) {
-        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &radiance));
+        koksma__import_mean(n->place, "a light's texture", KOKSMA__EMISSION, &radiance);
         memcpy(surface->radiance, radiance.rgb, sizeof radiance.rgb);
     }
     surface->emits = true;
-    return koksma__import_unknown_if(strcmp(type_of(n), "area") != 0, r->im, n->place,
-                                     "a light's direction is ignored");
+    koksma__import_unknown_if(!has_type(n, "area"), n->place, "a light's direction is ignored");
 }
 
 /* Finds a shape's material and emission among its children. */
-static koksma_status surface_of(reader *r, const node *n, koksma__import_surface *out)
+static koksma__import_surface surface_of(reader *r, const node *n)
 {
     bool has_bsdf = false;
-    *out = (koksma__import_surface){.material = -1, .turned = flag(r, n, "flip_normals")};
+    koksma__import_surface out = {.material = -1, .turned = flag(r, n, "flip_normals")};
     EACH_CHILD(r, n, c, "bsdf")
     {
-        KOKSMA__TRY(find_bsdf(r, resolve(r, c), &out->material));
+        const node *bsdf = resolve(r, c);
+        int *known = &r->materials[bsdf - r->xml.nodes];
+        *known = *known == -2 ? make_bsdf(r, bsdf, 0) : *known;
+        out.material = *known;
         has_bsdf = true;
     }
     EACH_CHILD(r, n, c, "emitter")
     {
-        KOKSMA__TRY(area_light(r, resolve(r, c), out));
+        area_light(r, resolve(r, c), &out);
     }
-    if (!has_bsdf && !out->emits) {
+    if (!has_bsdf && !out.emits) {
         const koksma__import_material grey = {.kind = KOKSMA__MATTE, .colour = {.rgb = {0.5, 0.5, 0.5}, .period = 1}};
-        KOKSMA__TRY(koksma__import_add_material(r->im, n->place, &grey, &out->material));
+        out.material = koksma__import_material_of(n->place, &grey);
     }
-    return KOKSMA_OK;
+    return out;
 }
 
 /* The matrix that places the unit cylinder between p0 and p1. */
@@ -810,10 +763,9 @@ static void cylinder(const reader *r, const node *n, double m[12])
 }
 
 /* Finds the basic shape or the mesh for a <shape>, and the matrix that gives it its size. */
-static koksma_status form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
+static void form_of(reader *r, const node *n, koksma__import_item *item, double m[12])
 {
     const koksma__plugin *row = row_of(r, n);
-    const bool numbered = !strcmp(type_of(n), "serialized");
     memcpy(m, koksma__import_identity, sizeof koksma__import_identity);
     item->form = row->makes == KOKSMA__N_BASIC_FORMS ? KOKSMA__FORM_MESH : (koksma__form)row->makes;
     item->mesh = -1;
@@ -825,17 +777,15 @@ static koksma_status form_of(reader *r, const node *n, koksma__import_item *item
     } else if (item->form == KOKSMA__FORM_CYLINDER) {
         cylinder(r, n, m);
     } else if (row->makes == KOKSMA__FORM_MESH) {
-        const double part = numbered ? number(r, n, "shape_index") : -1;
-        if (numbered && !(part >= 0 && part <= 1e9 && part == floor(part))) {
-            return koksma__import_fail(n->place, "a shape_index of %g: it is a whole number from 0 on", part);
-        }
+        const double part = has_type(n, "serialized") ? number(r, n, "shape_index") : -1;
+        koksma__import_fail_if(has_type(n, "serialized") && !(part >= 0 && part <= 1e9 && part == floor(part)),
+                               n->place, "a shape_index of %g: it is a whole number from 0 on", part);
         const koksma__mesh_rules rules = {
             .facets = flag(r, n, "face_normals"), .smooths = true, .flips_v = flag(r, n, "flip_tex_coords")};
-        return koksma__import_mesh_file(r->im, n->place, text(r, n, "filename"), (long)part, rules, &item->mesh);
+        item->mesh = koksma__import_mesh_file(n->place, text(r, n, "filename"), (long)part, rules);
     } else if (item->form == KOKSMA__FORM_MESH) {
-        return REPLACE(r, n, "shape '%s' is left out%s", type_of(n), type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
+        REPLACE(n, "shape '%s' is left out%s", type_of(n), TYPE_MEANT(r, n));
     }
-    return KOKSMA_OK;
 }
 
 /* ---- Media -------------------------------------------------------------------------------------------------- */
@@ -881,7 +831,7 @@ static bool set_region(const double m[12], bool is_ball, koksma__medium *to)
 /* Finds the only medium to read. If the first sensor has a medium, it is that one, bounded by the first cube or sphere
    whose interior it fills, or without bounds if there is none. Otherwise it is the first homogeneous medium in a cube or
    sphere. */
-static koksma_status find_medium(reader *r, const node *root)
+static void find_medium(reader *r, const node *root)
 {
     const node *child = first_of(r, root);
     while (child && !is(object_of(r, child), "sensor")) {
@@ -890,14 +840,13 @@ static koksma_status find_medium(reader *r, const node *root)
     r->medium = child ? medium_of(r, object_of(r, child), NULL) : NULL;
     for (child = first_of(r, root); child && !r->filled; child = next_of(r, child)) {
         const node *n = object_of(r, child);
-        const bool is_ball = !strcmp(type_of(n), "sphere");
-        const node *inside =
-            is(n, "shape") && (is_ball || !strcmp(type_of(n), "cube")) ? medium_of(r, n, "interior") : NULL;
-        if (inside && (!r->medium || inside == r->medium) && !strcmp(type_of(inside), "homogeneous")) {
+        const bool is_ball = has_type(n, "sphere");
+        const node *inside = is(n, "shape") && (is_ball || has_type(n, "cube")) ? medium_of(r, n, "interior") : NULL;
+        if (inside && (!r->medium || inside == r->medium) && has_type(inside, "homogeneous")) {
             koksma__import_item item;
             double form[12], to_world[12], m[12];
-            KOKSMA__TRY(form_of(r, n, &item, form));
-            KOKSMA__TRY(transform(r, n, "to_world", to_world));
+            form_of(r, n, &item, form);
+            transform(r, n, "to_world", to_world);
             koksma__matrix_multiply(to_world, form, m);
             if (set_region(m, is_ball, &r->region)) {
                 r->medium = inside;
@@ -905,7 +854,6 @@ static koksma_status find_medium(reader *r, const node *root)
             }
         }
     }
-    return KOKSMA_OK;
 }
 
 static bool is_glass(const reader *r, int material)
@@ -915,7 +863,7 @@ static bool is_glass(const reader *r, int material)
 }
 
 /* Warns about the media of a shape that are not read. */
-static koksma_status name_media(reader *r, const node *n, int material)
+static void name_media(reader *r, const node *n, int material)
 {
     const node *inside = medium_of(r, n, "interior"), *outside = medium_of(r, n, "exterior");
     for (int i = 0; i < 2; i++) {
@@ -924,69 +872,68 @@ static koksma_status name_media(reader *r, const node *n, int material)
             koksma__xml_mark(medium, KOKSMA__XML_COVERED);
         }
     }
-    if (inside && strcmp(type_of(inside), "homogeneous") != 0) {
-        return koksma__import_unknown(r->im, inside->place, "media that vary in space are ignored");
+    if (inside && !has_type(inside, "homogeneous")) {
+        koksma__import_unknown(inside->place, "media that vary in space are ignored");
+    } else if (inside && n != r->filled) {
+        koksma__import_unknown(n->place,
+                               "a medium in a shape is ignored: only one is read, of the sensor, a cube or a sphere");
+    } else if (outside && outside != r->medium) {
+        koksma__import_unknown(n->place, "a medium around a shape is ignored: only one is read");
+    } else if (outside && !inside && is_glass(r, material)) {
+        koksma__import_unknown(n->place, "glass in a medium is filled by the medium");
     }
-    if (inside && n != r->filled) {
-        return koksma__import_unknown(
-            r->im, n->place, "a medium in a shape is ignored: only one is read, of the sensor, a cube or a sphere");
-    }
-    if (outside && outside != r->medium) {
-        return koksma__import_unknown(r->im, n->place, "a medium around a shape is ignored: only one is read");
-    }
-    return koksma__import_unknown_if(outside && !inside && is_glass(r, material), r->im, n->place,
-                                     "glass in a medium is filled by the medium");
 }
 
 /* Reads a colour of a medium, which is given directly or by a constant volume, of "color" in Mitsuba 2. */
-static koksma_status medium_colour(reader *r, const node *n, const char *name, double rgb[3])
+static void medium_colour(reader *r, const node *n, const char *name, double rgb[3])
 {
-    const node *found = property(r, n, name);
+    const node *found = property(r, n, name), *to = found ? resolve(r, found) : NULL;
+    const bool in_volume = to && is(to, "volume");
     const double grey = otherwise(r, n, name);
     koksma__import_colour c = {.rgb = {grey, grey, grey}};
-    found = found ? resolve(r, found) : NULL;
-    if (found && is(found, "volume") && strcmp(type_of(found), "constvolume") != 0) {
-        KOKSMA__TRY(REPLACE(r, found, "volume '%s' is replaced by %g", type_of(found), grey));
+    if (in_volume && !has_type(to, "constvolume")) {
+        REPLACE(to, "volume '%s' is replaced by %g", type_of(to), grey);
     } else {
-        KOKSMA__TRY(found && is(found, "volume") ? colour(r, found, "value", &c, 0) : colour(r, n, name, &c, 0));
-        KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a medium's texture", KOKSMA__UNBOUNDED, &c));
+        c = in_volume ? colour(r, to, "value") : colour(r, n, name);
+        koksma__import_mean(n->place, "a medium's texture", KOKSMA__UNBOUNDED, &c);
     }
     for (int k = 0; k < 3; k++) {
         rgb[k] = c.rgb[k] > 0 ? fmin(c.rgb[k], FAR) : 0;
     }
-    return KOKSMA_OK;
 }
 
-static koksma_status phase_of(reader *r, const node *n, double *g)
+static double phase_of(reader *r, const node *n)
 {
-    *g = 0;
+    double g = 0;
     EACH_CHILD(r, n, c, "phase")
     {
         const node *phase = resolve(r, c);
         if (!row_of(r, phase)) {
-            return REPLACE(r, phase, "phase function '%s' is replaced by the isotropic", type_of(phase));
+            REPLACE(phase, "phase function '%s' is replaced by the isotropic", type_of(phase));
+            break;
         }
-        *g = fmax(-0.999, fmin(number(r, phase, "g"), 0.999));
+        g = fmax(-0.999, fmin(number(r, phase, "g"), 0.999));
     }
-    return KOKSMA_OK;
+    return g;
 }
 
 /* Sets the scene's medium. Mitsuba gives the extinction and the albedo: their product is the scattering, and the rest
    of the extinction is the absorption. Versions before Mitsuba 2 give scattering and absorption. A scale multiplies
    all coefficients. */
-static koksma_status read_medium(reader *r, const node *n)
+static void read_medium(reader *r, const node *n)
 {
     koksma__medium *to = &r->im->scene->medium;
-    double a[3], b[3], g;
-    if (strcmp(type_of(n), "homogeneous") != 0 || property(r, n, "material")) {
-        return REPLACE(r, n, "media that vary in space, and media named in place of a material, are ignored");
+    double a[3], b[3];
+    if (!has_type(n, "homogeneous") || property(r, n, "material")) {
+        REPLACE(n, "media that vary in space, and media named in place of a material, are ignored");
+        return;
     }
     pass(r, n);
     const bool old = property(r, n, "sigma_s") || property(r, n, "sigma_a");
     const double scale = fmin(fmax(number(r, n, "scale"), 0), FAR);
-    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_s" : "albedo", b));
-    KOKSMA__TRY(medium_colour(r, n, old ? "sigma_a" : "sigma_t", a));
-    KOKSMA__TRY(phase_of(r, n, &g));
+    medium_colour(r, n, old ? "sigma_s" : "albedo", b);
+    medium_colour(r, n, old ? "sigma_a" : "sigma_t", a);
+    const double g = phase_of(r, n);
     for (int k = 0; k < 3; k++) {
         const double extinction = scale * (old ? a[k] + b[k] : a[k]);
         b[k] = old ? scale * b[k] : extinction * fmin(b[k], 1);
@@ -1002,86 +949,77 @@ static koksma_status read_medium(reader *r, const node *n)
     }
     if (koksma__medium_check(r->im->scene)) {
         to->is_there = false;
-        return koksma__import_unknown(
-            r->im, n->place, "the sensor's medium is ignored, because it would absorb all light of distant lights");
+        koksma__import_unknown(n->place,
+                               "the sensor's medium is ignored, because it would absorb all light of distant lights");
     }
-    return KOKSMA_OK;
 }
 
-static koksma_status shape(reader *r, const node *n, const double outer[12], int depth);
-
-/* Adds the shapes of a group. */
-static koksma_status parts_of_group(reader *r, const node *group, const double matrix[12], int depth)
-{
-    (void)row_of(r, group);
-    EACH_CHILD(r, group, c, "shape")
-    {
-        KOKSMA__TRY(shape(r, resolve(r, c), matrix, depth + 1));
-    }
-    return KOKSMA_OK;
-}
+static void shape(reader *r, const node *n, const double outer[12], int depth);
 
 /* Adds the shapes of the group to which an instance refers. */
-static koksma_status instance(reader *r, const node *n, const double outer[12], int depth)
+static void instance(reader *r, const node *n, const double outer[12], int depth)
 {
     double m[12], matrix[12];
     bool found = false;
-    if (depth > MOST_NESTED) {
-        return koksma__import_fail(n->place, "instances are nested more than %d deep", MOST_NESTED);
-    }
-    KOKSMA__TRY(transform(r, n, "to_world", m));
+    koksma__import_fail_if(depth > MOST_NESTED, n->place, "instances are nested more than %d deep", MOST_NESTED);
+    transform(r, n, "to_world", m);
     koksma__matrix_multiply(outer ? outer : koksma__import_identity, m, matrix);
     EACH_CHILD(r, n, c, "shape")
     {
+        const node *group = resolve(r, c);
         found = true;
-        KOKSMA__TRY(parts_of_group(r, resolve(r, c), matrix, depth));
+        (void)row_of(r, group); /* it is looked up */
+        EACH_CHILD(r, group, part, "shape")
+        {
+            shape(r, resolve(r, part), matrix, depth + 1);
+        }
     }
-    return found ? KOKSMA_OK : koksma__import_fail(n->place, "an instance without a reference to a shape group");
+    koksma__import_fail_if(!found, n->place, "an instance without a reference to a shape group");
 }
 
 /* Warns if a shape's normals are turned round to no effect: surfaces that reflect have two sides here, and a sphere of
    glass has its own normals. */
-static koksma_status name_flip(reader *r, const node *n, const koksma__import_item *item)
+static void name_flip(reader *r, const node *n, const koksma__import_item *item)
 {
     const node *bsdf = find_child(r, first_of(r, n), "bsdf");
-    const char *type = bsdf ? type_of(resolve(r, bsdf)) : "";
-    const bool none = item->surface.emits || item->surface.material < 0 || !strcmp(type, "twosided") ||
+    const bool none = item->surface.emits || item->surface.material < 0 ||
+                      (bsdf && has_type(resolve(r, bsdf), "twosided")) ||
                       (is_glass(r, item->surface.material) && item->form != KOKSMA__FORM_SPHERE);
-    return koksma__import_unknown_if(item->surface.turned && !none, r->im, n->place,
-                                     "'flip_normals' is ignored: surfaces have two sides");
+    koksma__import_unknown_if(item->surface.turned && !none, n->place,
+                              "'flip_normals' is ignored: surfaces have two sides");
 }
 
-static koksma_status shape(reader *r, const node *n, const double outer[12], int depth)
+static void shape(reader *r, const node *n, const double outer[12], int depth)
 {
     koksma__import_item item = {.place = n->place};
     double form[12], to_world[12];
-    if (!strcmp(type_of(n), "shapegroup")) {
-        return KOKSMA_OK;
+    if (has_type(n, "shapegroup")) {
+        return;
     }
-    if (!strcmp(type_of(n), "instance")) {
-        return instance(r, n, outer, depth);
+    if (has_type(n, "instance")) {
+        instance(r, n, outer, depth);
+        return;
     }
-    KOKSMA__TRY(form_of(r, n, &item, form));
+    form_of(r, n, &item, form);
     if (item.form == KOKSMA__FORM_MESH && item.mesh < 0) {
         koksma__xml_mark(n, KOKSMA__XML_COVERED);
-        return KOKSMA_OK;
+        return;
     }
-    KOKSMA__TRY(surface_of(r, n, &item.surface));
-    KOKSMA__TRY(name_flip(r, n, &item));
-    KOKSMA__TRY(
-        koksma__import_spend(r->im, n->place, item.mesh < 0 ? 0 : r->im->scene->meshes[item.mesh].n_triangles / 16));
-    KOKSMA__TRY(koksma__import_unknown_if(
-        item.surface.emits && item.mesh >= 0 && koksma__mesh_is_curved(&r->im->scene->meshes[item.mesh]), r->im,
-        n->place, "a luminous mesh shines from its flat sides, not by its smooth normals"));
-    KOKSMA__TRY(name_media(r, n, item.surface.material));
-    KOKSMA__TRY(transform(r, n, "to_world", to_world));
+    item.surface = surface_of(r, n);
+    name_flip(r, n, &item);
+    const koksma__mesh *mesh = item.mesh < 0 ? NULL : &r->im->scene->meshes[item.mesh];
+    koksma__import_spend(n->place, mesh ? mesh->n_triangles / 16 : 0);
+    koksma__import_unknown_if(item.surface.emits && mesh && koksma__mesh_is_curved(mesh), n->place,
+                              "a luminous mesh shines from its flat sides, not by its smooth normals");
+    name_media(r, n, item.surface.material);
+    transform(r, n, "to_world", to_world);
     koksma__matrix_multiply(to_world, form, item.matrix);
-    return koksma__import_put(r->im, &item, outer, NULL);
+    koksma__import_put(&item, outer, NULL);
 }
 
 /* ---- Emitters and sensors ------------------------------------------------------------------------------------ */
 
-static koksma_status emitter(reader *r, const node *n)
+static void emitter(reader *r, const node *n)
 {
     static const char *const colours[] = {[KOKSMA__POINT_LIGHT] = "intensity",
                                           [KOKSMA__SPOT] = "intensity",
@@ -1090,15 +1028,14 @@ static koksma_status emitter(reader *r, const node *n)
                                           [KOKSMA__PICTURE] = "radiance"};
     const koksma__plugin *row = row_of(r, n);
     koksma__light light = {.kind = &koksma__light_point};
-    koksma__import_colour c;
     double m[12];
-    KOKSMA__TRY(weight(r, n));
-    KOKSMA__TRY(transform(r, n, "to_world", m));
-    KOKSMA__TRY(colour(r, n, colours[row->makes], &c, 0));
-    KOKSMA__TRY(koksma__import_mean(r->im, n->place, "a light's texture", KOKSMA__EMISSION, &c));
-    KOKSMA__TRY(row->instead ? REPLACE(r, n, "emitter '%s' is replaced by %s%s", type_of(n), row->instead,
-                                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}))
-                             : KOKSMA_OK);
+    weight(r, n);
+    transform(r, n, "to_world", m);
+    koksma__import_colour c = colour(r, n, colours[row->makes]);
+    koksma__import_mean(n->place, "a light's texture", KOKSMA__EMISSION, &c);
+    if (row->instead) {
+        REPLACE(n, "emitter '%s' is replaced by %s%s", type_of(n), row->instead, TYPE_MEANT(r, n));
+    }
     memcpy(light.radiance, c.rgb, sizeof c.rgb);
     double along[3] = {m[2], m[6], m[10]};
     for (int k = 0; k < 3 && row->makes <= KOKSMA__SPOT; k++) {
@@ -1106,7 +1043,8 @@ static koksma_status emitter(reader *r, const node *n)
     }
     if (row->makes == KOKSMA__PICTURE) {
         const double scale = number(r, n, "scale"), rgb[3] = {scale, scale, scale};
-        return koksma__import_sky(r->im, n->place, text(r, n, "filename"), 0, rgb, m);
+        koksma__import_sky(n->place, text(r, n, "filename"), 0, rgb, m);
+        return;
     }
     if (row->makes == KOKSMA__SKY) {
         light.kind = &koksma__light_environment;
@@ -1115,49 +1053,47 @@ static koksma_status emitter(reader *r, const node *n)
         light.kind = &koksma__light_directional;
         point(r, n, "direction", along);
         memcpy(light.normal, along, sizeof light.normal);
-        if (!koksma__import_normalise(light.normal)) {
-            return koksma__import_fail(n->place, "a directional light without a direction");
-        }
+        koksma__import_fail_if(!koksma__import_normalise(light.normal), n->place,
+                               "a directional light without a direction");
     } else {
         point(r, n, "position", light.centre);
     }
     if (row->makes == KOKSMA__SPOT) {
         const double outer = number(r, n, "cutoff_angle");
         const double inner = property(r, n, "beam_width") ? number(r, n, "beam_width") : outer * 3 / 4;
-        KOKSMA__TRY(koksma__import_spot(n->place, along, inner, outer, KOKSMA__FALLOFF_ANGLE, &light));
+        koksma__import_spot(n->place, along, inner, outer, KOKSMA__FALLOFF_ANGLE, &light);
     }
-    return koksma__import_light(r->im, n->place, &light);
+    koksma__import_light(n->place, &light);
 }
 
 /* ---- Sensors and films --------------------------------------------------------------------------------------- */
 
 /* Takes the parameters of an object that chooses how a picture is computed or stored, which the program's own options do
    here, or warns that it has another type. */
-static koksma_status plain(reader *r, const node *n)
+static void plain(reader *r, const node *n)
 {
     const koksma__plugin *row = row_of(r, n);
     if (!row || row->instead) {
-        return REPLACE(r, n, "%s '%s' is ignored%s", n->tag, type_of(n),
-                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
+        REPLACE(n, "%s '%s' is ignored%s", n->tag, type_of(n), TYPE_MEANT(r, n));
+        return;
     }
     pass(r, n);
     if (is(n, "sampler") && property(r, n, "sample_count")) { /* `koksma rank` takes the number from here */
-        const double count = number(r, n, "sample_count");
-        r->im->scene->spp = count >= 1 && count <= KOKSMA_MAX_SPP ? (int)count : 0;
+        const double spp = number(r, n, "sample_count");
+        r->im->scene->spp = spp >= 1 && spp <= KOKSMA_MAX_SPP ? (int)spp : 0;
     }
     EACH_CHILD(r, n, c, "sampler")
     {
-        KOKSMA__TRY(plain(r, resolve(r, c)));
+        plain(r, resolve(r, c));
     }
     EACH_CHILD(r, n, c, "rfilter")
     {
-        KOKSMA__TRY(plain(r, resolve(r, c)));
+        plain(r, resolve(r, c));
     }
-    return KOKSMA_OK;
 }
 
 /* Reads the objects of a sensor, of which the film has the sides of the picture. */
-static koksma_status objects_of_sensor(reader *r, const node *n)
+static void objects_of_sensor(reader *r, const node *n)
 {
     double width = 768, height = 576;
     EACH_CHILD(r, n, c, "film")
@@ -1165,17 +1101,15 @@ static koksma_status objects_of_sensor(reader *r, const node *n)
         const node *film = resolve(r, c);
         width = number(r, film, "width");
         height = number(r, film, "height");
-        if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE &&
-              width == floor(width) && height == floor(height))) {
-            return koksma__import_fail(film->place,
-                                       "a film of %g x %g pixels; each side must be a whole number, 1 to %d", width,
-                                       height, KOKSMA_MAX_IMAGE_SIDE);
-        }
-        KOKSMA__TRY(plain(r, film));
+        koksma__import_fail_if(!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE &&
+                                 height <= KOKSMA_MAX_IMAGE_SIDE && width == floor(width) && height == floor(height)),
+                               film->place, "a film of %g x %g pixels; each side must be a whole number, 1 to %d",
+                               width, height, KOKSMA_MAX_IMAGE_SIDE);
+        plain(r, film);
     }
     r->im->scene->width = (int)width;
     r->im->scene->height = (int)height;
-    return plain(r, n);
+    plain(r, n);
 }
 
 /* The focal length in mm: a number, or a text that may end in "mm". */
@@ -1186,9 +1120,7 @@ static double focal_length(const reader *r, const node *n)
     if (!c || koksma__mitsuba_is_number(c)) {
         return number(r, n, "focal_length");
     }
-    if (!koksma__mitsuba_measure(text(r, n, "focal_length"), "mm", &length_mm)) {
-        note(r, c, "a length in mm");
-    }
+    need(koksma__mitsuba_measure(text(r, n, "focal_length"), "mm", &length_mm), c, "a length in mm");
     return length_mm;
 }
 
@@ -1204,70 +1136,71 @@ static double height_angle(const reader *r, const node *n, double width, double 
     return 2 * koksma__atan(koksma__hypot(36, 24) / 2 / focal_length(r, n) * height / koksma__hypot(width, height));
 }
 
-static koksma_status sensor(reader *r, const node *n)
+static void sensor(reader *r, const node *n)
 {
     double m[12];
-    const char *type = type_of(n);
-    const bool lens = !strcmp(type, "thinlens"), parallel = !strcmp(type, "orthographic");
+    const bool lens = has_type(n, "thinlens");
     if (r->has_sensor) {
-        return REPLACE(r, n, "the scene has a second sensor, which is left out");
+        REPLACE(n, "the scene has a second sensor, which is left out");
+        return;
     }
-    if (!row_of(r, n)) {
-        return koksma__import_fail(n->place,
-                                   "sensor '%s' is not read; 'perspective', 'thinlens' and 'orthographic' are", type);
-    }
+    koksma__import_fail_if(!row_of(r, n), n->place,
+                           "sensor '%s' is not read; 'perspective', 'thinlens' and 'orthographic' are", type_of(n));
     r->has_sensor = true;
-    KOKSMA__TRY(objects_of_sensor(r, n));
+    objects_of_sensor(r, n);
     const double near = number(r, n, "near_clip"), far = number(r, n, "far_clip");
-    if (!(near > 0 && far > near)) {
-        return koksma__import_fail(
-            n->place, "the camera sees from near_clip, above 0, to far_clip: not from %g to %g", near, far);
-    }
-    KOKSMA__TRY(transform(r, n, "to_world", m));
+    koksma__import_fail_if(!(near > 0 && far > near), n->place,
+                           "the camera sees from near_clip, above 0, to far_clip: not from %g to %g", near, far);
+    transform(r, n, "to_world", m);
     const double width = r->im->scene->width, height = r->im->scene->height;
     koksma__camera camera = {.focus_distance = lens ? number(r, n, "focus_distance") : 1,
                              .lens_radius = lens ? number(r, n, "aperture_radius") : 0,
                              .near_clip = near,
                              .far_clip = far};
-    if (parallel) { /* an orthographic sensor shows -1 to 1 along x */
+    if (has_type(n, "orthographic")) { /* it shows -1 to 1 along x */
         const double x = sqrt(m[0] * m[0] + m[4] * m[4] + m[8] * m[8]),
                      y = sqrt(m[1] * m[1] + m[5] * m[5] + m[9] * m[9]);
         camera.height = 2 * height / width;
-        KOKSMA__TRY(koksma__import_unknown_if(fabs(x - y) > 1e-4 * y, r->im, n->place,
-                                              "the camera's scale along x is replaced by the scale along y"));
+        koksma__import_unknown_if(fabs(x - y) > 1e-4 * y, n->place,
+                                  "the camera's scale along x is replaced by the scale along y");
     } else {
         camera.fov_rad = height_angle(r, n, width, height);
     }
-    return koksma__import_camera(r->im, n->place, m, -1, &camera);
+    koksma__import_camera(n->place, m, -1, &camera);
 }
 
 /* ---- Integrators ---------------------------------------------------------------------------------------------- */
 
 /* Reads what an integrator says of the picture: how long paths are, and whether the camera sees lights. All that estimate
    the same light by other means are path tracing here. */
-static koksma_status integrator(reader *r, const node *n, int depth)
+static void integrator(reader *r, const node *n, int depth)
 {
     koksma_scene *scene = r->im->scene;
-    const node *inner = strcmp(type_of(n), "aov") ? NULL : find_child(r, first_of(r, n), "integrator");
-    KOKSMA__TRY(plain(r, n));
+    const node *inner = has_type(n, "aov") ? find_child(r, first_of(r, n), "integrator") : NULL;
+    plain(r, n);
     if (!row_of(r, n) || (inner && depth < MOST_NESTED)) { /* the picture is that of the integrator within */
-        return inner ? integrator(r, resolve(r, inner), depth + 1) : KOKSMA_OK;
+        if (inner) {
+            integrator(r, resolve(r, inner), depth + 1);
+        }
+        return;
     }
     static const char surfaces_only[] = "path direct prb prb_basic ptracer";
-    KOKSMA__TRY(koksma__import_unknown_if(
-        r->medium && koksma__lists(surfaces_only, sizeof surfaces_only - 1, ' ', type_of(n)), r->im, n->place,
-        "the medium is rendered, which Mitsuba's integrator '%s' leaves out; 'volpath' has it", type_of(n)));
-    const bool direct = !strcmp(type_of(n), "direct");
+    koksma__import_unknown_if(
+        r->medium && koksma__lists(surfaces_only, sizeof surfaces_only - 1, ' ', type_of(n)), n->place,
+        "the medium is rendered, which Mitsuba's integrator '%s' leaves out; 'volpath' has it", type_of(n));
+    const bool direct = has_type(n, "direct");
     const double most = direct ? 2 : number(r, n, "max_depth");
     scene->paths = !direct;
     scene->hides_lights = flag(r, n, "hide_emitters");
     if (most >= 0 && most < 2) {
-        return koksma__import_unknown(r->im, n->place, "a max_depth of %g is replaced by 2", most);
+        koksma__import_unknown(n->place, "a max_depth of %g is replaced by 2", most);
+        return;
     }
     /* Mitsuba counts a path's segments, of which one comes from the camera and one from a light; --depth the others */
     scene->path_vertices = 1 + (most < 0 ? KOKSMA_MAX_DEPTH : (int)fmin(most - 2, KOKSMA_MAX_DEPTH));
-    return KOKSMA_OK;
 }
+
+/* ---- The whole scene ---------------------------------------------------------------------------------------- */
 
 /* What may be meant by an element that is not read: a parameter of the parent's row, or a tag. */
 static const char *meant_by(const void *context, const node *parent, const node *n, char *text)
@@ -1292,25 +1225,22 @@ static const char *meant_by(const void *context, const node *parent, const node 
     return koksma__or_meant(koksma__word_list_closest(&words, n->tag), text);
 }
 
-/* ---- The whole scene ---------------------------------------------------------------------------------------- */
-
 /* Whether the children of a scene with this tag are read, wherever else they are referred to. */
 static bool is_of_scene(const node *n)
 {
     static const char tags[] =
         "sensor shape emitter integrator bsdf texture spectrum medium ref alias default include path";
-    return koksma__lists(tags, sizeof tags - 1, ' ', n->tag) &&
-           (!is(n, "emitter") || strcmp(type_of(n), "area") != 0);
+    return koksma__lists(tags, sizeof tags - 1, ' ', n->tag) && (!is(n, "emitter") || !has_type(n, "area"));
 }
 
 /* Marks what the table knows of an object that nothing refers to, and of those in it, so that what is misspelt there is
    named, too. */
-static koksma_status judge(reader *r, const node *n)
+static void judge(reader *r, const node *n)
 {
     const koksma__plugin *row = row_of(r, n);
     if (!row || *row->kinds == '?') {
-        return REPLACE(r, n, "%s '%s' is ignored%s", n->tag, type_of(n),
-                       type_meant(r, n, (char[KOKSMA__OR_MEANT]){0}));
+        REPLACE(n, "%s '%s' is ignored%s", n->tag, type_of(n), TYPE_MEANT(r, n));
+        return;
     }
     const char *at = row->parameters;
     koksma__entry e = {.type = NULL};
@@ -1324,70 +1254,67 @@ static koksma_status judge(reader *r, const node *n)
         for (const node *o = is(c, "transform") ? first_of(r, c) : NULL; o; o = next_of(r, o)) {
             koksma__xml_mark(o, KOKSMA__XML_TAKEN);
         }
-        KOKSMA__TRY(is_object && !is(c, "ref") && !r->rows[c - r->xml.nodes] ? judge(r, c) : KOKSMA_OK);
+        if (is_object && !is(c, "ref") && !r->rows[c - r->xml.nodes]) {
+            judge(r, c);
+        }
     }
-    return KOKSMA_OK;
 }
 
-/* Judges the objects of the scene that nothing has looked up. */
-static koksma_status judge_unused(reader *r, const node *root)
-{
-    for (const node *n = first_of(r, root); n; n = next_of(r, n)) {
-        const bool is_named = is(n, "bsdf") || is_texture(n) || is(n, "medium") || is(n, "shape");
-        KOKSMA__TRY(is_named && !r->rows[n - r->xml.nodes] ? judge(r, n) : KOKSMA_OK);
-    }
-    return KOKSMA_OK;
-}
-
-static koksma_status read_root(reader *r)
+static void read_root(reader *r)
 {
     const node *root = r->xml.n ? r->xml.nodes : NULL;
-    if (!root || !is(root, "scene")) {
-        return koksma__import_fail((koksma__text_place){r->im->path, 1},
-                                   "no <scene>: the file is not a Mitsuba scene");
-    }
-    KOKSMA__TRY(find_medium(r, root));
+    koksma__import_fail_if(!root || !is(root, "scene"), (koksma__text_place){r->im, r->im->path, 1},
+                           "no <scene>: the file is not a Mitsuba scene");
+    find_medium(r, root);
     r->im->scene->paths = true;
     for (const node *c = first_of(r, root); c; c = next_of(r, c)) {
         const node *n = object_of(r, c);
         koksma__xml_mark(c, is_of_scene(c) ? KOKSMA__XML_TAKEN : 0);
-        KOKSMA__TRY(is(n, "sensor")                                       ? sensor(r, n)
-                    : is(n, "integrator")                                 ? integrator(r, n, 0)
-                    : is(n, "shape")                                      ? shape(r, n, NULL, 0)
-                    : is(n, "emitter") && strcmp(type_of(n), "area") != 0 ? emitter(r, n)
-                                                                          : KOKSMA_OK);
+        if (is(n, "sensor")) {
+            sensor(r, n);
+        } else if (is(n, "integrator")) {
+            integrator(r, n, 0);
+        } else if (is(n, "shape")) {
+            shape(r, n, NULL, 0);
+        } else if (is(n, "emitter") && !has_type(n, "area")) {
+            emitter(r, n);
+        }
     }
-    KOKSMA__TRY(r->has_sensor ? (r->medium ? read_medium(r, r->medium) : KOKSMA_OK)
-                              : koksma__import_fail(root->place, "no <sensor>"));
+    koksma__import_fail_if(!r->has_sensor, root->place, "no <sensor>");
+    if (r->medium) {
+        read_medium(r, r->medium);
+    }
     (void)koksma__xml_attribute(root, "version");
-    KOKSMA__TRY(judge_unused(r, root));
+    for (const node *n = first_of(r, root); n; n = next_of(r, n)) { /* what nothing has looked up */
+        if ((is(n, "bsdf") || is_texture(n) || is(n, "medium") || is(n, "shape")) && !r->rows[n - r->xml.nodes]) {
+            judge(r, n);
+        }
+    }
     koksma__xml_mark(root, KOKSMA__XML_TAKEN);
-    return koksma__xml_name_unread(r->im, &r->xml, meant_by, r);
+    koksma__xml_name_unread(r->im, &r->xml, meant_by, r);
+}
+
+static void read_scene(void *data)
+{
+    reader *r = data;
+    koksma__xml_read(r->im, r->bytes, r->size, &r->xml);
+    r->materials = malloc((r->xml.n + 1) * sizeof *r->materials);
+    r->rows = calloc(r->xml.n + 1, sizeof *r->rows);
+    koksma__import_pass((koksma__text_place){.im = r->im},
+                        r->materials && r->rows ? KOKSMA_OK : koksma__fail_memory(r->xml.n * sizeof *r->materials));
+    for (size_t i = 0; i < r->xml.n; i++) {
+        r->materials[i] = -2;
+    }
+    koksma__mitsuba_check(&r->xml);
+    find_identities(r);
+    read_root(r);
 }
 
 koksma_status koksma__mitsuba_read(koksma__import *im, const char *bytes, size_t size)
 {
-    mistake first = {0};
-    reader r = {.im = im, .mistake = &first};
+    reader r = {.im = im, .bytes = bytes, .size = size};
     im->rows_down = true;
-    koksma_status status = koksma__xml_read(im, bytes, size, &r.xml);
-    if (!status) {
-        r.materials = malloc((r.xml.n + 1) * sizeof *r.materials);
-        r.rows = calloc(r.xml.n + 1, sizeof *r.rows);
-        status = r.materials && r.rows ? KOKSMA_OK : koksma__fail_memory(r.xml.n * sizeof *r.materials);
-        for (size_t i = 0; r.materials && i < r.xml.n; i++) {
-            r.materials[i] = -2;
-        }
-    }
-    status = status ? status : koksma__mitsuba_check(&r.xml);
-    status = status ? status : find_identities(&r);
-    status = status ? status : read_root(&r);
-    if (first.at && status != KOKSMA_MEMORY) {
-        const char *name = koksma__xml_attribute(first.at, "name"), *value = koksma__xml_attribute(first.at, "value");
-        status = first.expected ? koksma__import_fail(first.at->place, "%s: <%s> '%.60s' is not %s", name,
-                                                      first.at->tag, value ? value : "", first.expected)
-                                : koksma__import_spend(im, first.at->place, 0);
-    }
+    const koksma_status status = koksma__import_try(im, read_scene, &r);
     KOKSMA__FREE(r.materials, r.rows);
     koksma__names_fini(&r.identities);
     koksma__xml_fini(&r.xml);

@@ -59,7 +59,7 @@ typedef struct koksma__xml {
 /* Parses an XML text. Errors: MALFORMED (not well-formed; a document type declaration, whose entities could grow
    without limit; nested too deep; too many elements; more text made from $names than import_text.h allows),
    UNSUPPORTED (this build lacks expat), MEMORY. Call koksma__xml_fini even after an error. */
-koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out);
+void koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out);
 void koksma__xml_fini(koksma__xml *xml);
 
 /* The value of an attribute, which is marked as looked up; NULL if the node does not have it. */
@@ -76,9 +76,9 @@ typedef const char *koksma__xml_meant(const void *context, const koksma__xml_nod
                                       char *text);
 
 /* Warns about each element that no reader has taken, and each attribute that none has looked up, in the whole tree but for
-   what is covered. Errors: MEMORY, MALFORMED (koksma__import_spend). */
-koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml, koksma__xml_meant *meant,
-                                      const void *context);
+   what is covered. */
+void koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml, koksma__xml_meant *meant,
+                             const void *context);
 
 /* Whether a text has this name of `length` bytes, as it is or in the form of Mitsuba 0.6: a capital is in place of '_'
    (toWorld, intIOR). */
@@ -86,21 +86,21 @@ bool koksma__xml_alike(const char *text, const char *name, size_t length);
 
 /* ---- Values ---------------------------------------------------------------------------------------------------------- */
 
-/* All functions fail with MALFORMED and a text that names the file, the line, the element and the value, unless the
-   value has the whole form that is described here. */
+/* All functions fail with a text that names the file, the line, the element and the value, unless the value has the whole
+   form that is described here. */
 
 /* One finite number, with blanks around it; hexadecimal numbers are none. */
-koksma_status koksma__mitsuba_number(const koksma__xml_node *n, const char *attribute, double *out);
+double koksma__mitsuba_number(const koksma__xml_node *n, const char *attribute);
 
 /* One number, perhaps with this unit behind it; returns false for another text. */
 bool koksma__mitsuba_measure(const char *text, const char *unit, double *out);
 
 /* "true" or "false", in upper or lower case. */
-koksma_status koksma__mitsuba_flag(const koksma__xml_node *n, bool *out);
+bool koksma__mitsuba_flag(const koksma__xml_node *n);
 
 /* The attributes x, y and z, each one number, or `value`: three numbers, or one for all three. Of x, y and z all must
    be given, unless `otherwise`, the value of the missing ones, is finite. */
-koksma_status koksma__mitsuba_triple(const koksma__xml_node *n, double otherwise, double out[3]);
+void koksma__mitsuba_triple(const koksma__xml_node *n, double otherwise, double out[3]);
 
 /* A colour: the attribute `value` with one number, three numbers, "#" and six hexadecimal digits (levels of sRGB), or
    pairs "WAVELENGTH:VALUE, ..." with increasing wavelengths; a black body's temperature in kelvins. */
@@ -111,12 +111,15 @@ typedef struct koksma__mitsuba_colour {
 } koksma__mitsuba_colour;
 
 /* The form is KOKSMA__NO_COLOUR for a spectrum that is in another file. */
-koksma_status koksma__mitsuba_colour_read(const koksma__xml_node *n, koksma__mitsuba_colour *out);
+koksma__mitsuba_colour koksma__mitsuba_colour_read(const koksma__xml_node *n);
 
 /* Samples of a spectrum, two at least: numbers in the `value` of one element, at the increasing wavelengths in that of
    another, or, if that is NULL, at equal distances between two. */
-koksma_status koksma__mitsuba_samples(const koksma__xml_node *values, const koksma__xml_node *wavelengths,
-                                      double from, double to, koksma__sampled_spectrum *out);
+koksma__sampled_spectrum koksma__mitsuba_samples(const koksma__xml_node *values, const koksma__xml_node *wavelengths,
+                                                 double from, double to);
+
+/* Whether the element has this tag. */
+bool koksma__mitsuba_is(const koksma__xml_node *n, const char *tag);
 
 /* Whether the element is of a kind that stands for a number or for a colour. */
 bool koksma__mitsuba_is_number(const koksma__xml_node *n);
@@ -124,9 +127,9 @@ bool koksma__mitsuba_is_colour(const koksma__xml_node *n);
 
 /* The matrix of an operation in a transform: translate, scale, rotate, lookat, matrix. The last row of a matrix of 16
    numbers must be 0 0 0 1. */
-koksma_status koksma__mitsuba_operation(const koksma__xml_node *n, double m[12]);
+void koksma__mitsuba_operation(const koksma__xml_node *n, double m[12]);
 
 /* Checks the values of all elements, also of those that nothing reads. */
-koksma_status koksma__mitsuba_check(const koksma__xml *xml);
+void koksma__mitsuba_check(const koksma__xml *xml);
 
 #endif

@@ -79,8 +79,7 @@ typedef struct reader {
     double numbers[16];
     char texts[3][1024];
     koksma__pbrt_parameters *parameters;
-    koksma__pbrt_mistake mistake;
-    bool used[KOKSMA__MAX_PBRT_PARAMETERS]; /* of the parameters */
+    size_t listed; /* the length of the list of warnings before it */
     /* The camera, completed when the aspect ratio of the film is known. */
     bool has_camera, orthographic, has_window, in_world;
     koksma__text_place camera_place;
@@ -99,8 +98,8 @@ typedef enum kind_place { NONE, FIRST, SECOND, THIRD, TYPE } kind_place;
 
 typedef struct directive {
     const char *name;
-    koksma_status (*take)(reader *r); /* NULL: it does not describe the scene */
-    unsigned numbers, texts;          /* how many of them follow the name */
+    void (*take)(reader *r); /* NULL: it does not describe the scene */
+    unsigned numbers, texts; /* how many of them follow the name */
     bool has_parameters;
     kind_place kind;
     bool describes;     /* the parameters describe the scene, so that each unused one gives a warning */
@@ -110,7 +109,7 @@ typedef struct directive {
 /* ---- Transforms -------------------------------------------------------------------------------------------- */
 
 /* Multiplies the active matrices by another, or, if `replaces`, replaces them. */
-static koksma_status change(reader *r, const double by[12], bool replaces)
+static void change(reader *r, const double by[12], bool replaces)
 {
     for (unsigned i = 0; i < 2; i++) {
         double product[12];
@@ -119,100 +118,94 @@ static koksma_status change(reader *r, const double by[12], bool replaces)
             memcpy(r->now.matrix[i], product, sizeof product);
         }
     }
-    return KOKSMA_OK;
 }
 
-static koksma_status concat(reader *r, const double by[12])
+static void take_identity(reader *r)
 {
-    return change(r, by, false);
+    change(r, koksma__import_identity, true);
 }
 
-static koksma_status take_identity(reader *r)
-{
-    return change(r, koksma__import_identity, true);
-}
-
-static koksma_status take_translate(reader *r)
+static void take_translate(reader *r)
 {
     const double *v = r->numbers;
-    return concat(r, (const double[12]){1, 0, 0, v[0], 0, 1, 0, v[1], 0, 0, 1, v[2]});
+    change(r, (const double[12]){1, 0, 0, v[0], 0, 1, 0, v[1], 0, 0, 1, v[2]}, false);
 }
 
-static koksma_status take_scale(reader *r)
+static void take_scale(reader *r)
 {
     const double *v = r->numbers;
-    return concat(r, (const double[12]){v[0], 0, 0, 0, 0, v[1], 0, 0, 0, 0, v[2], 0});
+    change(r, (const double[12]){v[0], 0, 0, 0, 0, v[1], 0, 0, 0, 0, v[2], 0}, false);
 }
 
-static koksma_status take_rotate(reader *r)
+static void take_rotate(reader *r)
 {
     double m[12];
-    return koksma__import_rotation(r->numbers[0], r->numbers + 1, m)
-               ? concat(r, m)
-               : koksma__import_fail(r->place, "Rotate: the axis has no direction");
+    koksma__import_fail_if(!koksma__import_rotation(r->numbers[0], r->numbers + 1, m), r->place,
+                           "Rotate: the axis has no direction");
+    change(r, m, false);
 }
 
-static koksma_status take_look_at(reader *r)
+static void take_look_at(reader *r)
 {
     double m[12], inverse[12];
-    KOKSMA__TRY(koksma__import_look_at(r->place, "LookAt", r->numbers, r->numbers + 3, r->numbers + 6, m));
+    koksma__import_look_at(r->place, "LookAt", r->numbers, r->numbers + 3, r->numbers + 6, m);
     koksma__import_invert(m, inverse);
-    return concat(r, inverse);
+    change(r, inverse, false);
 }
 
 /* Reads a matrix, which is given column by column. */
-static koksma_status take_transform(reader *r)
+static void take_transform(reader *r)
 {
     double m[12];
     for (int i = 0; i < 12; i++) {
         m[i] = r->numbers[4 * (i % 4) + i / 4];
     }
-    return change(r, m, *r->directive->name == 'T');
+    change(r, m, *r->directive->name == 'T');
 }
 
-static koksma_status name_space(reader *r, const char *name, double (*matrix)[12])
+static void name_space(reader *r, const char *name, double (*matrix)[12])
 {
-    KOKSMA__TRY(koksma__import_hold(r->im, r->place, sizeof(space) + KOKSMA__HELD_WITH_NAME));
-    space *to = koksma__add_one(&r->spaces, &r->n_spaces, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    memcpy(to->matrix[0], matrix[0], sizeof to->matrix[0]);
-    memcpy(to->matrix[1], matrix[1], sizeof to->matrix[1]);
-    return koksma__names_put(&r->space_names, name, strlen(name), r->n_spaces - 1);
+    koksma__import_hold(r->place, sizeof(space) + KOKSMA__HELD_WITH_NAME);
+    space *to = koksma__import_add(r->place, &r->spaces, &r->n_spaces, sizeof *to);
+    memcpy(to->matrix, matrix, sizeof to->matrix);
+    koksma__import_put_name(r->place, &r->space_names, name, r->n_spaces - 1);
 }
 
-static koksma_status take_coordinate_system(reader *r)
+static void take_coordinate_system(reader *r)
 {
-    return name_space(r, r->texts[0], r->now.matrix);
+    name_space(r, r->texts[0], r->now.matrix);
 }
 
-static koksma_status take_coordinate_transform(reader *r)
+/* Finds the thing that the directive names. */
+static size_t find_named(const reader *r, const koksma__names *names, const char *what)
 {
-    size_t i;
-    if (!koksma__names_find(&r->space_names, r->texts[0], strlen(r->texts[0]), &i)) {
-        return koksma__import_fail(r->place, "no coordinate system '%s'", r->texts[0]);
-    }
-    memcpy(r->now.matrix, r->spaces[i].matrix, sizeof r->now.matrix);
-    return KOKSMA_OK;
+    size_t i = 0;
+    koksma__import_fail_if(!koksma__names_find(names, r->texts[0], strlen(r->texts[0]), &i), r->place, "no %s '%s'",
+                           what, r->texts[0]);
+    return i;
 }
 
-static koksma_status take_active(reader *r)
+static void take_coordinate_transform(reader *r)
+{
+    const space *from = &r->spaces[find_named(r, &r->space_names, "coordinate system")];
+    memcpy(r->now.matrix, from->matrix, sizeof r->now.matrix);
+}
+
+static void take_active(reader *r)
 {
     static const char *const all[] = {[START] = "StartTime", [END] = "EndTime", [START | END] = "All"};
-    koksma__pbrt_token t;
-    KOKSMA__TRY(koksma__pbrt_token_next(r->source, &t));
-    for (unsigned i = START; i <= (START | END); i++) {
-        if (t.kind == KOKSMA__PBRT_WORD && koksma__text_is(t.at, t.length, all[i])) {
-            r->now.active = i;
-            return KOKSMA_OK;
-        }
+    const koksma__pbrt_token t = koksma__pbrt_token_next(r->source);
+    unsigned which = START;
+    while (which <= (START | END) && !(t.kind == KOKSMA__PBRT_WORD && koksma__text_is(t.at, t.length, all[which]))) {
+        which++;
     }
-    return koksma__import_fail(r->source->place, "ActiveTransform is StartTime, EndTime or All");
+    koksma__import_fail_if(which > (START | END), r->source->place, "ActiveTransform is StartTime, EndTime or All");
+    r->now.active = which;
 }
 
-static koksma_status take_times(reader *r)
+static void take_times(reader *r)
 {
     memcpy(r->times, r->numbers, sizeof r->times);
-    return KOKSMA_OK;
 }
 
 /* Whether something placed by the two matrices moves. */
@@ -221,152 +214,125 @@ static bool moves(const double *start, const double *end)
     return memcmp(start, end, 12 * sizeof *start) != 0;
 }
 
-/* Finds the poses at the start and the end of a motion, from their matrices. Sets *found to false, with a
-   warning, if there are none. */
-static koksma_status find_poses(reader *r, koksma__text_place place, const double *start, const double *end,
-                                koksma__pose poses[2], bool *found)
+/* Finds the poses at the start and the end of a motion, from the matrices. Returns false, with a warning, if there are
+   none. */
+static bool find_poses(const reader *r, koksma__pose poses[2])
 {
-    *found = koksma__matrix_mirrors(start) == koksma__matrix_mirrors(end) &&
-             koksma__pose_of_matrix(start, &poses[0]) && koksma__pose_of_matrix(end, &poses[1]);
-    return *found ? KOKSMA_OK
-                  : koksma__import_unknown(r->im, place,
-                                           "a motion that mirrors, or by a matrix without inverse, is ignored");
+    const double *start = r->now.matrix[0], *end = r->now.matrix[1];
+    const bool found = koksma__matrix_mirrors(start) == koksma__matrix_mirrors(end) &&
+                       koksma__pose_of_matrix(start, &poses[0]) && koksma__pose_of_matrix(end, &poses[1]);
+    koksma__import_unknown_if(!found, r->place, "a motion that mirrors, or by a matrix without inverse, is ignored");
+    return found;
 }
 
 /* ---- States ------------------------------------------------------------------------------------------------ */
 
-static koksma_status push(reader *r)
+static void push(reader *r)
 {
-    if (r->n_stack == MOST_STATES) {
-        return koksma__import_fail(r->place, "more than %d attributes or objects are open", MOST_STATES);
-    }
-    graphics *to = koksma__add_one(&r->stack, &r->n_stack, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+    koksma__import_fail_if(r->n_stack == MOST_STATES, r->place, "more than %d attributes or objects are open",
+                           MOST_STATES);
+    graphics *to = koksma__import_add(r->place, &r->stack, &r->n_stack, sizeof *to);
     *to = r->now;
-    return KOKSMA_OK;
 }
 
 /* Takes the top entry from the stack, and restores the graphics state or the matrices from it. The stack keeps its
    memory, because koksma__add_one() computes the capacity from nothing but the number of items. */
-static koksma_status pop(reader *r, bool matrix_alone)
+static void pop(reader *r, bool matrix_alone)
 {
-    if (!r->n_stack) {
-        return koksma__import_fail(r->place, "an AttributeEnd, ObjectEnd or TransformEnd without its begin");
-    }
+    koksma__import_fail_if(!r->n_stack, r->place, "an AttributeEnd, ObjectEnd or TransformEnd without its begin");
     const graphics *from = &r->stack[--r->n_stack];
     if (matrix_alone) {
         memcpy(r->now.matrix, from->matrix, sizeof from->matrix);
         r->now.active = from->active;
-    } else {
-        r->now = *from;
-        while (r->n_attributes > r->now.n_attributes) {
-            free(r->attributes[--r->n_attributes].parameter.numbers);
-        }
+        return;
     }
-    return KOKSMA_OK;
+    r->now = *from;
+    while (r->n_attributes > r->now.n_attributes) {
+        free(r->attributes[--r->n_attributes].parameter.numbers);
+    }
 }
 
-static koksma_status take_end(reader *r)
+static void take_end(reader *r)
 {
-    return pop(r, *r->directive->name == 'T');
+    pop(r, *r->directive->name == 'T');
 }
 
-static koksma_status take_reverse(reader *r)
+static void take_reverse(reader *r)
 {
     r->now.surface.turned = !r->now.surface.turned;
-    return KOKSMA_OK;
 }
 
-static koksma_status take_world(reader *r)
+static void take_world(reader *r)
 {
     r->now.active = START | END;
     r->in_world = true;
-    return take_identity(r);
+    take_identity(r);
 }
 
-static koksma_status take_object_begin(reader *r)
+static void take_object_begin(reader *r)
 {
-    if (r->in_object) {
-        return koksma__import_fail(r->place, "an object within another object");
-    }
-    KOKSMA__TRY(push(r));
-    KOKSMA__TRY(koksma__import_hold(r->im, r->place, sizeof(object) + KOKSMA__HELD_WITH_NAME));
-    r->in_object = koksma__add_one(&r->objects, &r->n_objects, sizeof(object)) != NULL;
+    koksma__import_fail_if(r->in_object, r->place, "an object within another object");
+    push(r);
+    koksma__import_hold(r->place, sizeof(object) + KOKSMA__HELD_WITH_NAME);
+    koksma__import_add(r->place, &r->objects, &r->n_objects, sizeof(object));
+    r->in_object = true;
     snprintf(r->object_name, sizeof r->object_name, "%.255s", r->texts[0]);
-    return r->in_object ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
-static koksma_status take_object_end(reader *r)
+static void take_object_end(reader *r)
 {
-    if (!r->in_object) {
-        return koksma__import_fail(r->place, "ObjectEnd without ObjectBegin");
-    }
-    KOKSMA__TRY(koksma__names_put(&r->object_names, r->object_name, strlen(r->object_name), r->n_objects - 1));
+    koksma__import_fail_if(!r->in_object, r->place, "ObjectEnd without ObjectBegin");
+    koksma__import_put_name(r->place, &r->object_names, r->object_name, r->n_objects - 1);
     r->in_object = false;
-    return pop(r, false);
+    pop(r, false);
 }
 
-static koksma_status take_instance(reader *r)
+static void take_instance(reader *r)
 {
-    size_t i;
-    if (!koksma__names_find(&r->object_names, r->texts[0], strlen(r->texts[0]), &i)) {
-        return koksma__import_fail(r->place, "no object '%s'", r->texts[0]);
-    }
-    const object *o = &r->objects[i];
+    const object *o = &r->objects[find_named(r, &r->object_names, "object")];
     koksma__pose poses[2];
-    bool moving = moves(r->now.matrix[0], r->now.matrix[1]);
-    if (moving) {
-        KOKSMA__TRY(find_poses(r, r->place, r->now.matrix[0], r->now.matrix[1], poses, &moving));
-    }
+    const bool moving = moves(r->now.matrix[0], r->now.matrix[1]) && find_poses(r, poses);
     for (size_t k = 0; k < o->n; k++) {
-        KOKSMA__TRY(koksma__import_put(r->im, &o->items[k], r->now.matrix[0], moving ? poses : NULL));
+        koksma__import_put(&o->items[k], r->now.matrix[0], moving ? poses : NULL);
     }
-    return KOKSMA_OK;
 }
 
 /* ---- Shapes and lights ------------------------------------------------------------------------------------- */
 
-static koksma_status put(reader *r, const koksma__import_item *item)
-{
-    if (!r->in_object) {
-        return koksma__import_put(r->im, item, NULL, NULL);
-    }
-    object *open = &r->objects[r->n_objects - 1];
-    KOKSMA__TRY(koksma__import_hold(r->im, item->place, sizeof *item));
-    koksma__import_item *to = koksma__add_one(&open->items, &open->n, sizeof *to);
-    KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
-    *to = *item;
-    return KOKSMA_OK;
-}
-
-static koksma_status take_shape(reader *r)
+static void take_shape(reader *r)
 {
     double form[12];
-    bool is_there = true;
     koksma__import_item item = {.surface = r->now.surface, .place = r->place};
     if (r->in_object && item.surface.emits) {
         item.surface.emits = false;
-        KOKSMA__TRY(koksma__import_unknown(r->im, r->place, "a light within an object is dark"));
+        koksma__import_unknown(r->place, "a light within an object is dark");
     }
     memcpy(form, koksma__import_identity, sizeof form);
-    KOKSMA__TRY(koksma__pbrt_shape(&r->values, r->texts[0], r->parameters, r->now.power, r->now.matrix[0], &item,
-                                   form, &is_there));
-    koksma__matrix_multiply(r->now.matrix[0], form, item.matrix);
-    if (is_there && moves(r->now.matrix[0], r->now.matrix[1])) {
-        memcpy(item.motion.before, form, sizeof form);
-        KOKSMA__TRY(
-            find_poses(r, r->place, r->now.matrix[0], r->now.matrix[1], item.motion.poses, &item.motion.moves));
+    if (!koksma__pbrt_shape(&r->values, r->texts[0], r->parameters, r->now.power, r->now.matrix[0], &item, form)) {
+        return;
     }
-    return is_there ? put(r, &item) : KOKSMA_OK;
+    koksma__matrix_multiply(r->now.matrix[0], form, item.matrix);
+    if (moves(r->now.matrix[0], r->now.matrix[1])) {
+        memcpy(item.motion.before, form, sizeof form);
+        item.motion.moves = find_poses(r, item.motion.poses);
+    }
+    if (!r->in_object) {
+        koksma__import_put(&item, NULL, NULL);
+        return;
+    }
+    object *open = &r->objects[r->n_objects - 1];
+    koksma__import_hold(r->place, sizeof item);
+    koksma__import_item *to = koksma__import_add(r->place, &open->items, &open->n, sizeof *to);
+    *to = item;
 }
 
-static koksma_status take_area_light(reader *r)
+static void take_area_light(reader *r)
 {
     koksma__import_surface *surface = &r->now.surface;
     surface->emits = true;
     surface->two_sided = koksma__pbrt_flag(r->parameters, "twosided");
     r->now.power = koksma__pbrt_number(r->parameters, "power");
-    return koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
+    koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
 }
 
 /* Transforms a point (w = 1) or a direction (w = 0) by a matrix. */
@@ -378,7 +344,7 @@ static void move_point(const double m[12], const double p[3], double w, double o
 }
 
 /* Scales a light's colour so that it has the power or illuminance that the parameters give. */
-static void scale_light(const koksma__pbrt_parameters *p, const char *type, double rgb[3])
+static void scale_light(koksma__pbrt_parameters *p, const char *type, double rgb[3])
 {
     const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
     const double given = koksma__pbrt_number(p, far || around ? "illuminance" : "power");
@@ -393,49 +359,46 @@ static void scale_light(const koksma__pbrt_parameters *p, const char *type, doub
     }
 }
 
-static koksma_status take_light(reader *r)
+static void take_light(reader *r)
 {
     const char *type = r->texts[0];
-    const koksma__pbrt_parameters *p = r->parameters;
+    koksma__pbrt_parameters *p = r->parameters;
     koksma__light light = {.kind = &koksma__light_point};
     double from[3] = {0}, to[3] = {0, 0, 1}, along[3];
-    const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite");
-    KOKSMA__TRY(koksma__pbrt_emission(&r->values, p, far || around ? "L" : "I", light.radiance));
-    KOKSMA__TRY(koksma__import_unknown_if(moves(r->now.matrix[0], r->now.matrix[1]), r->im, p->place,
-                                          "a moving light stays where it is at the start"));
+    const bool far = !strcmp(type, "distant"), around = !strcmp(type, "infinite"), spot = !strcmp(type, "spot");
+    koksma__pbrt_emission(&r->values, p, far || around ? "L" : "I", light.radiance);
+    koksma__import_unknown_if(moves(r->now.matrix[0], r->now.matrix[1]), p->place,
+                              "a moving light stays where it is at the start");
     koksma__pbrt_point(p, "from", from);
     koksma__pbrt_point(p, "to", to);
     if (around && *koksma__pbrt_word(p, "filename")) {
-        const double illuminance = koksma__pbrt_number(p, "illuminance");
-        return koksma__import_sky(r->im, p->place, koksma__pbrt_word(p, "filename"), illuminance, light.radiance,
-                                  r->now.matrix[0]);
+        koksma__import_sky(p->place, koksma__pbrt_word(p, "filename"), koksma__pbrt_number(p, "illuminance"),
+                           light.radiance, r->now.matrix[0]);
+        return;
     }
     scale_light(p, type, light.radiance);
+    koksma__subtract(to, from, to);
+    move_point(r->now.matrix[0], to, 0, along);
     if (around) {
         light.kind = &koksma__light_environment;
         light.visible = true;
     } else if (far) {
         light.kind = &koksma__light_directional;
-        koksma__subtract(to, from, to);
-        move_point(r->now.matrix[0], to, 0, light.normal);
-        if (!koksma__import_normalise(light.normal)) {
-            return koksma__import_fail(p->place, "a distant light without a direction");
-        }
+        memcpy(light.normal, along, sizeof along);
+        koksma__import_fail_if(!koksma__import_normalise(light.normal), p->place,
+                               "a distant light without a direction");
     } else {
         move_point(r->now.matrix[0], from, 1, light.centre);
-        if (!strcmp(type, "spot")) {
-            const double outer = koksma__pbrt_number(p, "coneangle");
-            koksma__subtract(to, from, to);
-            move_point(r->now.matrix[0], to, 0, along);
-            KOKSMA__TRY(koksma__import_spot(p->place, along, outer - koksma__pbrt_number(p, "conedeltaangle"), outer,
-                                            KOKSMA__FALLOFF_SMOOTH, &light));
-        } else if (strcmp(type, "point") != 0) {
-            KOKSMA__TRY(koksma__import_unknown(
-                r->im, p->place, "light '%s' is replaced by a point light equal in all directions%s", type,
-                koksma__pbrt_kind_meant("LightSource", type, (char[KOKSMA__OR_MEANT]){0})));
-        }
     }
-    return koksma__import_light(r->im, p->place, &light);
+    if (spot) {
+        const double outer = koksma__pbrt_number(p, "coneangle");
+        koksma__import_spot(p->place, along, outer - koksma__pbrt_number(p, "conedeltaangle"), outer,
+                            KOKSMA__FALLOFF_SMOOTH, &light);
+    }
+    koksma__import_unknown_if(!around && !far && !spot && strcmp(type, "point") != 0, p->place,
+                              "light '%s' is replaced by a point light equal in all directions%s", type,
+                              koksma__pbrt_kind_meant("LightSource", type, (char[KOKSMA__OR_MEANT]){0}));
+    koksma__import_light(p->place, &light);
 }
 
 /* What the film makes of radiance, in pbrt-v4: the time for which the shutter is open, or the film's own exposure time of
@@ -446,20 +409,17 @@ static void set_exposure(reader *r)
     r->values.exposure = (r->exposure_time > 0 ? r->exposure_time : open) * r->iso / 100;
 }
 
-static koksma_status take_camera(reader *r)
+static void take_camera(reader *r)
 {
     const char *type = r->texts[0];
-    const koksma__pbrt_parameters *p = r->parameters;
+    koksma__pbrt_parameters *p = r->parameters;
     r->orthographic = !strcmp(type, "orthographic");
-    if (!r->orthographic && strcmp(type, "perspective") != 0) {
-        return koksma__import_fail(p->place, "camera '%s' is not read; 'perspective' and 'orthographic' are", type);
-    }
-    if (!koksma__import_invert(r->now.matrix[0], r->camera[0]) ||
-        !koksma__import_invert(r->now.matrix[1], r->camera[1])) {
-        return koksma__import_fail(p->place, "the camera's matrix has no inverse");
-    }
-    KOKSMA__TRY(
-        koksma__import_unknown_if(r->in_world, r->im, p->place, "a Camera after WorldBegin, which pbrt refuses"));
+    koksma__import_fail_if(!r->orthographic && strcmp(type, "perspective") != 0, p->place,
+                           "camera '%s' is not read; 'perspective' and 'orthographic' are", type);
+    koksma__import_fail_if(!koksma__import_invert(r->now.matrix[0], r->camera[0]) ||
+                               !koksma__import_invert(r->now.matrix[1], r->camera[1]),
+                           p->place, "the camera's matrix has no inverse");
+    koksma__import_unknown_if(r->in_world, p->place, "a Camera after WorldBegin, which pbrt refuses");
     r->has_camera = true;
     r->camera_place = p->place;
     snprintf(r->camera_medium, sizeof r->camera_medium, "%s", r->now.outside);
@@ -470,27 +430,26 @@ static koksma_status take_camera(reader *r)
     r->shutter[1] = koksma__pbrt_number(p, "shutterclose");
     set_exposure(r);
     const koksma__pbrt_parameter *window = koksma__pbrt_find_typed(p, "screenwindow", "float");
-    r->has_window = window && window->n == 4;
-    if (window && !r->has_window) {
-        return koksma__import_fail(p->place, "a screen window is four numbers: x from, x to, y from, y to");
-    }
-    if (r->has_window) {
+    r->has_window = window != NULL;
+    koksma__import_fail_if(window && window->n != 4, p->place,
+                           "a screen window is four numbers: x from, x to, y from, y to");
+    if (window) {
         memcpy(r->window, window->numbers, sizeof r->window);
     }
     r->frame = fmax(koksma__pbrt_number(p, "frameaspectratio"), 0);
-    return name_space(r, "camera", r->camera);
+    name_space(r, "camera", r->camera);
 }
 
 /* Reads the part of the film that is the picture, in pixels: x from [0] to [1], y from [2] to [3]. A crop window is in
    fractions of the film, whose pixels are rounded upwards, and has priority over bounds in pixels, as in pbrt. */
-static koksma_status take_crop(const koksma__pbrt_parameters *p, const double sides[2], double crop[4])
+static void take_crop(koksma__pbrt_parameters *p, const double sides[2], double crop[4])
 {
     const koksma__pbrt_parameter *window = koksma__pbrt_find_typed(p, "cropwindow", "float"),
                                  *bounds = koksma__pbrt_find_typed(p, "pixelbounds", "integer"),
                                  *from = window ? window : bounds;
-    if (from && from->n != 4) {
-        return koksma__import_fail(p->place, "%s: it is four numbers: x from, x to, y from, y to", from->name);
-    }
+    const char *name = from ? from->name : "";
+    koksma__import_fail_if(from && from->n != 4, p->place, "%s: it is four numbers: x from, x to, y from, y to",
+                           name);
     for (int i = 0; i < 4; i++) {
         const double *v = from ? from->numbers + i / 2 * 2 : NULL, side = sides[i / 2];
         crop[i] = i % 2 ? side : 0;
@@ -501,220 +460,183 @@ static koksma_status take_crop(const koksma__pbrt_parameters *p, const double si
             crop[i] = fmin(fmax(v[i % 2], 0), side);
         }
     }
-    return crop[0] < crop[1] && crop[2] < crop[3]
-               ? KOKSMA_OK
-               : koksma__import_fail(p->place, "%s: no pixel of the film is in it", from->name);
+    koksma__import_fail_if(!(crop[0] < crop[1] && crop[2] < crop[3]), p->place, "%s: no pixel of the film is in it",
+                           name);
 }
 
-static koksma_status take_film(reader *r)
+static void take_film(reader *r)
 {
-    const koksma__pbrt_parameters *p = r->parameters;
+    koksma__pbrt_parameters *p = r->parameters;
     const double width = koksma__pbrt_whole(p, "xresolution"), height = koksma__pbrt_whole(p, "yresolution");
-    if (!(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE)) {
-        return koksma__import_fail(p->place, "a film of %g x %g pixels; each side must be 1 to %d", width, height,
-                                   KOKSMA_MAX_IMAGE_SIDE);
-    }
+    koksma__import_fail_if(
+        !(width >= 1 && height >= 1 && width <= KOKSMA_MAX_IMAGE_SIDE && height <= KOKSMA_MAX_IMAGE_SIDE), p->place,
+        "a film of %g x %g pixels; each side must be 1 to %d", width, height, KOKSMA_MAX_IMAGE_SIDE);
     r->film[0] = width;
     r->film[1] = height;
-    KOKSMA__TRY(take_crop(p, r->film, r->crop));
+    take_crop(p, r->film, r->crop);
     r->im->scene->width = (int)(r->crop[1] - r->crop[0]);
     r->im->scene->height = (int)(r->crop[3] - r->crop[2]);
-    KOKSMA__TRY(
-        koksma__import_unknown_if(r->in_world, r->im, p->place, "a Film after WorldBegin, which pbrt refuses"));
+    koksma__import_unknown_if(r->in_world, p->place, "a Film after WorldBegin, which pbrt refuses");
     r->iso = koksma__pbrt_number(p, "iso");
     r->exposure_time = koksma__pbrt_number(p, "exposuretime");
     set_exposure(r);
     const char *sensor = koksma__pbrt_word(p, "sensor");
-    return koksma__import_unknown_if(*sensor && strcmp(sensor, "cie1931"), r->im, p->place,
-                                     "the sensor '%.40s' is replaced by 'cie1931'", sensor);
+    koksma__import_unknown_if(*sensor && strcmp(sensor, "cie1931"), p->place,
+                              "the sensor '%.40s' is replaced by 'cie1931'", sensor);
 }
 
 /* ---- Materials and textures --------------------------------------------------------------------------------- */
 
-static koksma_status take_material(reader *r)
+static void take_material(reader *r)
 {
-    return koksma__pbrt_material(&r->values, r->texts[0], r->parameters, &r->now.surface.material);
+    r->now.surface.material = koksma__pbrt_material(&r->values, r->texts[0], r->parameters);
 }
 
-static koksma_status take_make_material(reader *r)
+static void take_make_material(reader *r)
 {
-    return koksma__pbrt_name_material(&r->values, r->texts[0], r->parameters);
+    koksma__pbrt_name_material(&r->values, r->texts[0], r->parameters);
 }
 
-static koksma_status take_named_material(reader *r)
+static void take_named_material(reader *r)
 {
-    return koksma__pbrt_find_material(&r->values, r->place, r->texts[0], &r->now.surface.material);
+    r->now.surface.material = koksma__pbrt_find_material(&r->values, r->place, r->texts[0]);
 }
 
-static koksma_status take_texture(reader *r)
+static void take_texture(reader *r)
 {
-    return koksma__pbrt_texture(&r->values, r->texts[0], r->texts[1], r->texts[2], r->parameters);
+    koksma__pbrt_texture(&r->values, r->texts[0], r->texts[1], r->texts[2], r->parameters);
 }
 
 /* An integrator that shows something else than the light of the scene is named. */
-static koksma_status take_integrator(reader *r)
+static void take_integrator(reader *r)
 {
     const char *type = r->texts[0];
-    return strcmp(type, "ambientocclusion") && strcmp(type, "function")
-               ? KOKSMA_OK
-               : koksma__import_unknown(r->im, r->place,
-                                        "integrator '%s' is ignored: the picture shows the scene's light", type);
+    koksma__import_unknown_if(!strcmp(type, "ambientocclusion") || !strcmp(type, "function"), r->place,
+                              "integrator '%s' is ignored: the picture shows the scene's light", type);
 }
 
 /* The points are those of the program's own options; `koksma rank` takes their number from here. */
-static koksma_status take_sampler(reader *r)
+static void take_sampler(reader *r)
 {
-    const koksma__pbrt_parameters *p = r->parameters;
+    koksma__pbrt_parameters *p = r->parameters;
     const double n = !strcmp(r->texts[0], "stratified")
                          ? koksma__pbrt_whole(p, "xsamples") * koksma__pbrt_whole(p, "ysamples")
                          : koksma__pbrt_whole(p, "pixelsamples");
     r->im->scene->spp = n >= 1 && n <= KOKSMA_MAX_SPP ? (int)n : 0;
-    return KOKSMA_OK;
 }
 
-static koksma_status take_option(reader *r)
+static void take_option(reader *r)
 {
-    return koksma__import_unknown_if(koksma__pbrt_flag(r->parameters, "forcediffuse"), r->im, r->place,
-                                     "option 'forcediffuse' is ignored");
+    koksma__import_unknown_if(koksma__pbrt_flag(r->parameters, "forcediffuse"), r->place,
+                              "option 'forcediffuse' is ignored");
 }
 
-static koksma_status take_colour_space(reader *r)
+static void take_colour_space(reader *r)
 {
-    return koksma__import_unknown_if(strcasecmp(r->texts[0], "srgb") != 0, r->im, r->place,
-                                     "colour space '%s' is replaced by sRGB", r->texts[0]);
+    koksma__import_unknown_if(strcasecmp(r->texts[0], "srgb") != 0, r->place, "colour space '%s' is replaced by sRGB",
+                              r->texts[0]);
 }
 
-/* Finds the medium with this name, or adds it; NULL after an error. */
+/* Finds the medium with this name, or adds it. */
 static medium *find_medium(reader *r, const char *name)
 {
     size_t i;
     if (koksma__names_find(&r->medium_names, name, strlen(name), &i)) {
         return &r->media[i];
     }
-    const koksma_status status = koksma__import_hold(r->im, r->place, sizeof(medium) + KOKSMA__HELD_WITH_NAME);
-    medium *to = status ? NULL : koksma__add_one(&r->media, &r->n_media, sizeof *to);
-    if (!to || koksma__names_put(&r->medium_names, name, strlen(name), r->n_media - 1)) {
-        return NULL;
-    }
+    koksma__import_hold(r->place, sizeof(medium) + KOKSMA__HELD_WITH_NAME);
+    medium *to = koksma__import_add(r->place, &r->media, &r->n_media, sizeof *to);
+    koksma__import_put_name(r->place, &r->medium_names, name, r->n_media - 1);
     snprintf(to->name, sizeof to->name, "%s", name);
     return to;
 }
 
 /* Remembers the first use of a medium, which may be made later. */
-static koksma_status use_medium(reader *r, const char *name)
+static void use_medium(reader *r, const char *name)
 {
     medium *m = *name ? find_medium(r, name) : NULL;
     if (m && !m->used.file) {
         m->used = r->source->place;
     }
-    return m || !*name ? KOKSMA_OK : KOKSMA_MALFORMED;
 }
 
-/* Fails if a medium is used and nowhere made, as in pbrt. */
-static koksma_status check_media(const reader *r)
+static void take_medium(reader *r)
 {
-    for (size_t i = 0; i < r->n_media; i++) {
-        if (!r->media[i].is_made) {
-            return koksma__import_fail(r->media[i].used, "no medium '%s'", r->media[i].name);
-        }
-    }
-    return KOKSMA_OK;
-}
-
-static koksma_status take_medium(reader *r)
-{
-    const koksma__pbrt_parameters *p = r->parameters;
+    koksma__pbrt_parameters *p = r->parameters;
     medium *to = find_medium(r, r->texts[0]);
-    if (!to) {
-        return KOKSMA_MALFORMED;
-    }
     to->is_made = true;
     if (strcmp(koksma__pbrt_word(p, "type"), "homogeneous") != 0 || koksma__pbrt_find(p, "preset") ||
         koksma__pbrt_find(p, "Le")) {
-        return koksma__import_unknown(r->im, p->place,
-                                      "media that vary in space, emit light or are presets are ignored");
+        koksma__import_unknown(p->place, "media that vary in space, emit light or are presets are ignored");
+        return;
     }
-    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_a", to->absorption));
-    KOKSMA__TRY(koksma__pbrt_coefficient(&r->values, p, "sigma_s", to->scattering));
+    koksma__pbrt_coefficient(&r->values, p, "sigma_a", to->absorption);
+    koksma__pbrt_coefficient(&r->values, p, "sigma_s", to->scattering);
     to->g = fmax(-0.999, fmin(koksma__pbrt_number(p, "g"), 0.999));
     to->is_read = true;
-    return KOKSMA_OK;
 }
 
 /* Reads the media inside and outside the shapes that follow; a single name is for both. */
-static koksma_status take_interface(reader *r)
+static void take_interface(reader *r)
 {
     const char *inside = r->texts[0], *outside = r->texts[1];
-    koksma__pbrt_token t;
     memcpy(r->texts[1], inside, sizeof r->texts[1]);
-    KOKSMA__TRY(koksma__pbrt_token_peek(r->source, &t));
-    KOKSMA__TRY(t.kind == KOKSMA__PBRT_TEXT ? koksma__pbrt_text(r->source, r->texts[1], sizeof r->now.outside)
-                                            : KOKSMA_OK);
+    if (koksma__pbrt_token_peek(r->source).kind == KOKSMA__PBRT_TEXT) {
+        koksma__pbrt_text(r->source, r->texts[1], sizeof r->now.outside);
+    }
     snprintf(r->now.outside, sizeof r->now.outside, "%.255s", outside);
-    KOKSMA__TRY(use_medium(r, inside));
-    KOKSMA__TRY(use_medium(r, outside));
-    return koksma__import_unknown_if(
-        (*inside && strcmp(inside, outside) != 0) || (r->has_camera && strcmp(outside, r->camera_medium) != 0), r->im,
-        r->source->place, "media of shapes are ignored: the camera's medium is everywhere");
+    use_medium(r, inside);
+    use_medium(r, outside);
+    koksma__import_unknown_if((*inside && strcmp(inside, outside) != 0) ||
+                                  (r->has_camera && strcmp(outside, r->camera_medium) != 0),
+                              r->source->place, "media of shapes are ignored: the camera's medium is everywhere");
 }
 
 /* Keeps parameters for the directives of a target that follow, until the AttributeEnd. */
-static koksma_status take_attribute(reader *r)
+static void take_attribute(reader *r)
 {
     static const char *const targets[][2] = {{"shape", "Shape"},
                                              {"light", "LightSource"},
                                              {"material", "Material"},
                                              {"medium", "MakeNamedMedium"},
                                              {"texture", "Texture"}};
-    const char *target = r->texts[0];
+    const size_t n_targets = sizeof targets / sizeof *targets;
     const koksma__pbrt_parameters *p = r->parameters;
     size_t which = 0;
-    while (which < sizeof targets / sizeof *targets && strcmp(targets[which][0], target) != 0) {
+    while (which < n_targets && strcmp(targets[which][0], r->texts[0]) != 0) {
         which++;
     }
-    if (which == sizeof targets / sizeof *targets) {
-        return koksma__import_fail(
-            p->place, "Attribute: '%s' is not a target; shape, light, material, medium and texture are", target);
-    }
-    KOKSMA__TRY(koksma__pbrt_name_parameters(r->im, targets[which][1], NULL, p));
+    koksma__import_fail_if(which == n_targets, p->place,
+                           "Attribute: '%s' is not a target; shape, light, material, medium and texture are",
+                           r->texts[0]);
+    koksma__pbrt_name_parameters(targets[which][1], NULL, p);
     for (size_t i = 0; i < p->n; i++) {
-        KOKSMA__TRY(koksma__import_hold(r->im, p->place,
-                                        sizeof *r->attributes + p->items[i].n * sizeof *p->items[i].numbers));
-        koksma__pbrt_attribute *to = koksma__add_one(&r->attributes, &r->n_attributes, sizeof *to);
-        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+        koksma__import_hold(p->place, sizeof *r->attributes + p->items[i].n * sizeof *p->items[i].numbers);
+        koksma__pbrt_attribute *to = koksma__import_add(p->place, &r->attributes, &r->n_attributes, sizeof *to);
         to->target = targets[which][0];
-        KOKSMA__TRY(koksma__pbrt_parameter_copy(&p->items[i], &to->parameter));
+        koksma__pbrt_parameter_copy(p->place, &p->items[i], &to->parameter);
     }
     r->now.n_attributes = r->n_attributes;
-    return KOKSMA_OK;
 }
 
 /* ---- Files ------------------------------------------------------------------------------------------------- */
 
-static koksma_status read_source(reader *r, source *s);
+static void read_source(reader *r, source *s);
 
-static koksma_status take_include(reader *r)
+static void take_include(reader *r)
 {
-    char *bytes = NULL;
-    size_t size = 0;
-    if (r->depth == MOST_INCLUDED) {
-        return koksma__import_fail(r->place, "files include each other more than %d deep", MOST_INCLUDED);
-    }
-    KOKSMA__TRY(koksma__import_text(r->im, r->place, r->texts[0], &bytes, &size));
-    char **kept = koksma__add_one(&r->values.texts, &r->values.n_texts, sizeof *kept);
-    char *name = kept ? strdup(r->texts[0]) : NULL;
+    koksma__import_fail_if(r->depth == MOST_INCLUDED, r->place, "files include each other more than %d deep",
+                           MOST_INCLUDED);
+    const koksma__open_text text = koksma__import_text(r->place, r->texts[0]);
     /* messages about places in the file point to the name, which must therefore be kept after the file is closed */
-    if (!name) {
-        koksma__import_text_close(r->im, bytes, size);
-        return kept ? koksma__fail_memory(sizeof r->texts[0]) : KOKSMA_MEMORY;
-    }
-    *kept = name;
-    source inner = {.at = bytes, .end = bytes + size, .place = {name, 1}};
+    char **name = koksma__import_add(r->place, &r->values.texts, &r->values.n_texts, sizeof *name);
+    *name = strdup(r->texts[0]);
+    koksma__import_pass(r->place, *name ? KOKSMA_OK : koksma__fail_memory(sizeof r->texts[0]));
+    source inner = {.at = text.bytes, .end = text.bytes + text.size, .place = {r->im, *name, 1}};
     r->depth++;
-    const koksma_status status = read_source(r, &inner);
+    read_source(r, &inner);
     r->depth--;
-    koksma__import_text_close(r->im, bytes, size);
-    return status;
+    koksma__import_text_close(r->im);
 }
 
 static const directive directives[] = {
@@ -782,106 +704,109 @@ static const char *kind_of(const reader *r)
 }
 
 /* Warns about a kind that pbrt-v4 does not have. */
-static koksma_status name_kind(const reader *r, const char *name, const char *kind)
+static void name_kind(const reader *r, const char *name, const char *kind)
 {
     char meant[KOKSMA__OR_MEANT];
-    return koksma__import_unknown_if(!koksma__pbrt_is_kind(name, kind), r->im, r->parameters->place,
-                                     "%s '%.40s' is not one of pbrt-v4%s", name, kind,
-                                     koksma__pbrt_kind_meant(name, kind, meant));
+    koksma__import_unknown_if(!koksma__pbrt_is_kind(name, kind), r->parameters->place,
+                              "%s '%.40s' is not one of pbrt-v4%s", name, kind,
+                              koksma__pbrt_kind_meant(name, kind, meant));
 }
 
 /* Warns about parameters that pbrt-v4 would refuse, whoever reads the directive, before it is read. */
-static koksma_status judge_parameters(void *from)
+static void judge_parameters(const reader *r)
 {
-    const reader *r = from;
     const char *name = r->directive->name, *kind = kind_of(r);
     r->parameters->directive = name;
     r->parameters->kind = kind;
     if (!strcmp(name, "Attribute")) {
-        return KOKSMA_OK; /* take_attribute() knows whose parameters they are */
+        return; /* take_attribute() knows whose parameters they are */
     }
     const bool typed = r->directive->kind != TYPE || koksma__pbrt_find(r->parameters, "type");
-    KOKSMA__TRY(r->directive->kind == TYPE && typed ? name_kind(r, name, kind) : KOKSMA_OK);
-    KOKSMA__TRY(koksma__pbrt_name_parameters(r->im, name, typed ? kind : NULL, r->parameters));
-    return typed ? KOKSMA_OK
-                 : koksma__import_fail(r->parameters->place, "%s: its type is missing, as in \"string type\" \"%s\"",
-                                       name, strcmp(name, "MakeNamedMedium") ? "diffuse" : "homogeneous");
-}
-
-/* Warns about a kind that pbrt-v4 does not have, and about parameters that nothing has looked up. n_before: the number of
-   warnings before the directive was read; if there are more, these name its replacement as a whole. */
-static koksma_status name_unread(reader *r, size_t n_before)
-{
-    const char *name = r->directive->name, *kind = kind_of(r);
-    const bool silent = n_before == count_unknown(r);
-    KOKSMA__TRY(r->directive->kind != NONE && silent ? name_kind(r, name, kind) : KOKSMA_OK);
-    return r->directive->describes && silent ? koksma__pbrt_name_unused(r->im, name, kind, r->parameters) : KOKSMA_OK;
+    if (r->directive->kind == TYPE && typed) {
+        name_kind(r, name, kind);
+    }
+    koksma__pbrt_name_parameters(name, typed ? kind : NULL, r->parameters);
+    koksma__import_fail_if(!typed, r->parameters->place, "%s: its type is missing, as in \"string type\" \"%s\"",
+                           name, strcmp(name, "MakeNamedMedium") ? "diffuse" : "homogeneous");
 }
 
 /* Reads what follows a directive's name up to its parameters' end. */
-static koksma_status read_arguments(reader *r)
+static void read_arguments(reader *r)
 {
     const directive *d = r->directive;
-    KOKSMA__TRY(d->numbers ? koksma__pbrt_numbers(r->source, d->numbers, r->numbers) : KOKSMA_OK);
+    if (d->numbers) {
+        koksma__pbrt_numbers(r->source, d->numbers, r->numbers);
+    }
     for (unsigned i = 0; i < d->texts; i++) {
-        const bool is_path = d->take == take_include;
-        KOKSMA__TRY(koksma__pbrt_text(r->source, r->texts[i], is_path ? sizeof r->texts[i] : 256));
+        koksma__pbrt_text(r->source, r->texts[i], d->take == take_include ? sizeof r->texts[i] : 256);
     }
     r->place = r->source->place;
-    return d->has_parameters ? koksma__pbrt_parameters_read(r->source, r->parameters) : KOKSMA_OK;
+    if (d->has_parameters) {
+        koksma__pbrt_parameters_read(r->source, r->parameters);
+        judge_parameters(r);
+    }
 }
 
+enum { NO_DIRECTIVE = -1 }; /* in place of r->listed */
+
 /* Reads a directive, and names what is not read of it. */
-static koksma_status read_directive(reader *r, source *s, const directive *d)
+static void read_directive(reader *r, source *s, const directive *d)
 {
-    const size_t before = count_unknown(r), listed = r->im->scene->n_unknown;
-    memset(r->used, 0, sizeof r->used);
-    r->mistake.at = NULL;
+    koksma__pbrt_parameters *p = r->parameters;
+    const size_t before = count_unknown(r);
+    memset(p->used, 0, sizeof p->used);
+    r->listed = d->take == take_include ? (size_t)NO_DIRECTIVE : r->im->scene->n_unknown;
     r->directive = d;
     r->source = s;
     s->directive = d->name;
-    r->parameters->attributes = r->attributes;
-    r->parameters->n_attributes = r->n_attributes;
-    r->parameters->target = d->target ? d->target : "";
-    KOKSMA__TRY(d->target ? koksma__import_spend(r->im, s->place, r->n_attributes) : KOKSMA_OK);
-    koksma_status status = read_arguments(r);
-    if (d->take == take_include) {
-        return status ? status : take_include(r); /* its directives are done */
+    p->attributes = r->attributes;
+    p->n_attributes = r->n_attributes;
+    p->target = d->target ? d->target : "";
+    koksma__import_spend(s->place, d->target ? r->n_attributes : 0);
+    read_arguments(r);
+    if (d->take) {
+        d->take(r);
     }
-    status = koksma__pbrt_end(r->parameters, status || !d->take ? status : d->take(r));
-    const koksma__unknown *list = r->im->scene->unknown;
-    status = koksma__unknown_explain(status, list, r->im->scene->n_unknown > listed ? listed + 1 : 0);
-    status = status ? status : name_unread(r, before);
-    koksma__pbrt_parameters_fini(r->parameters);
-    return status;
+    r->listed = (size_t)NO_DIRECTIVE;
+    if (d->take == take_include) {
+        return; /* its directives are done */
+    }
+    const bool silent = before == count_unknown(r); /* else warnings name its replacement as a whole */
+    if (silent && d->kind != NONE) {
+        name_kind(r, d->name, kind_of(r));
+    }
+    if (silent && d->describes) {
+        koksma__pbrt_name_unused(p);
+    }
+    koksma__pbrt_parameters_fini(p);
 }
 
-static koksma_status read_source(reader *r, source *s)
+static const directive *find_directive(const source *s, const koksma__pbrt_token *t)
 {
-    for (;;) {
-        koksma__pbrt_token t;
-        KOKSMA__TRY(koksma__pbrt_token_next(s, &t));
-        if (t.kind == KOKSMA__PBRT_END) {
-            return KOKSMA_OK;
-        }
-        size_t i = 0;
-        const size_t n = sizeof directives / sizeof *directives;
-        while (i < n && (*directives[i].name != *t.at || !koksma__text_is(t.at, t.length, directives[i].name))) {
-            i++;
-        }
-        if (t.kind != KOKSMA__PBRT_WORD || i == n) {
-            koksma__word_list names = {.n = 0};
-            char meant[KOKSMA__OR_MEANT], word[48];
-            for (i = 0; i < n; i++) {
-                koksma__word_list_add(&names, directives[i].name, strlen(directives[i].name), "", "");
-            }
-            snprintf(word, sizeof word, "%.*s", t.length < 40 ? (int)t.length : 40, t.at);
-            return koksma__import_fail(s->place, "'%s' is not a directive of pbrt-v4%s", word,
-                                       !strcmp(word, "WorldEnd")
-                                           ? " but of pbrt-v3; 'pbrt --upgrade FILE' prints a file as one of pbrt-v4"
-                                           : koksma__or_meant(koksma__word_list_closest(&names, word), meant));
-        }
-        KOKSMA__TRY(read_directive(r, s, &directives[i]));
+    const directive *d = directives, *end = directives + sizeof directives / sizeof *directives;
+    while (d < end && (*d->name != *t->at || !koksma__text_is(t->at, t->length, d->name))) {
+        d++;
+    }
+    if (t->kind == KOKSMA__PBRT_WORD && d < end) {
+        return d;
+    }
+    koksma__word_list names = {.n = 0};
+    char meant[KOKSMA__OR_MEANT], word[48];
+    for (d = directives; d < end; d++) {
+        koksma__word_list_add(&names, d->name, strlen(d->name), "", "");
+    }
+    snprintf(word, sizeof word, "%.*s", t->length < 40 ? (int)t->length : 40, t->at);
+    koksma__import_fail(s->place, "'%s' is not a directive of pbrt-v4%s", word,
+                        !strcmp(word, "WorldEnd")
+                            ? " but of pbrt-v3; 'pbrt --upgrade FILE' prints a file as one of pbrt-v4"
+                            : koksma__or_meant(koksma__word_list_closest(&names, word), meant));
+}
+
+static void read_source(reader *r, source *s)
+{
+    koksma__pbrt_token t = koksma__pbrt_token_next(s);
+    for (; t.kind != KOKSMA__PBRT_END; t = koksma__pbrt_token_next(s)) {
+        read_directive(r, s, find_directive(s, &t));
     }
 }
 
@@ -894,20 +819,8 @@ static void default_window(reader *r, double aspect)
     memcpy(r->window, window, sizeof window);
 }
 
-/* Checks the shape of the screen window. Its coordinates -1 and 1 are at the edges of the angle of view. */
-static koksma_status check_window(reader *r, double aspect)
-{
-    const double *w = r->window, height = w[3] - w[2];
-    if (!(w[1] > w[0] && w[3] > w[2])) {
-        return koksma__import_fail(r->camera_place, "the screen window is empty; it is x from, x to, y from, y to");
-    }
-    return koksma__import_unknown_if(
-        fabs((w[1] - w[0]) / height - aspect) > 1e-3 * aspect, r->im, r->camera_place,
-        "the screen window and the image have different aspect ratios: the window's height is used");
-}
-
 /* Sets the camera's motion, which is straight here: a camera that turns as well stays at rest. */
-static koksma_status set_motion(reader *r, double motion[3])
+static void set_motion(reader *r, double motion[3])
 {
     double largest = 0;
     bool turns = false;
@@ -918,30 +831,30 @@ static koksma_status set_motion(reader *r, double motion[3])
         const double change = r->camera[1][i] - r->camera[0][i];
         turns |= i % 4 < 3 && fabs(change) > 1e-6 * largest;
         motion[i / 4] = i % 4 == 3 ? change : 0;
-        if (i % 4 == 3 && !(fabs(r->camera[1][i]) <= FAR)) {
-            return koksma__import_fail(r->camera_place, "the camera moves beyond 1e6");
-        }
+        koksma__import_fail_if(i % 4 == 3 && !(fabs(r->camera[1][i]) <= FAR), r->camera_place,
+                               "the camera moves beyond 1e6");
     }
     if (turns) {
         memset(motion, 0, 3 * sizeof *motion);
-        return koksma__import_unknown(r->im, r->camera_place, "the camera turns or zooms: it stays as at the start");
+        koksma__import_unknown(r->camera_place, "the camera turns or zooms: it stays as at the start");
     }
-    return KOKSMA_OK;
 }
 
 /* Sets the camera. pbrt's angle of view is that of a screen window of -1 to 1. */
-static koksma_status set_camera(reader *r)
+static void set_camera(reader *r)
 {
     const double aspect = r->film[0] / r->film[1], *w = r->window;
-    if (!r->has_camera) {
-        return koksma__import_fail((koksma__text_place){r->im->path, 1}, "no Camera");
-    }
+    koksma__import_fail_if(!r->has_camera, (koksma__text_place){r->im, r->im->path, 1}, "no Camera");
     koksma__camera camera = {.lens_radius = r->lens_radius, .focus_distance = r->focus_distance};
     if (!r->has_window) {
         default_window(r, aspect);
     }
-    KOKSMA__TRY(check_window(r, aspect));
-    KOKSMA__TRY(set_motion(r, camera.motion));
+    koksma__import_fail_if(!(w[1] > w[0] && w[3] > w[2]), r->camera_place,
+                           "the screen window is empty; it is x from, x to, y from, y to");
+    koksma__import_unknown_if(
+        fabs((w[1] - w[0]) / (w[3] - w[2]) - aspect) > 1e-3 * aspect, r->camera_place,
+        "the screen window and the image have different aspect ratios: the window's height is used");
+    set_motion(r, camera.motion);
     /* what the film shows from top to bottom, and the middle of the picture from that of the window, to the right and up */
     const double height = r->orthographic ? w[3] - w[2] : koksma__tan(r->fov_deg * TURN / 720) * (w[3] - w[2]);
     const double part = (r->crop[3] - r->crop[2]) / r->film[1];
@@ -959,36 +872,28 @@ static koksma_status set_camera(reader *r)
         camera.shift[0] = x + (w[0] + w[1]) / 2 * half;
         camera.shift[1] = -y - (w[2] + w[3]) / 2 * half;
     }
-    return koksma__import_camera(r->im, r->camera_place, r->camera[0], 1, &camera);
+    koksma__import_camera(r->camera_place, r->camera[0], 1, &camera);
 }
 
 /* Sets the times at which the shutter opens and closes, as fractions of the interval of the motion (TransformTimes).
    Without an exposure all lights are black. */
-static koksma_status set_shutter(reader *r)
+static void set_shutter(reader *r)
 {
     koksma_scene *scene = r->im->scene;
     const double length = r->times[1] - r->times[0];
     koksma__scene_finish(scene);
-    if (scene->n_lights && !(r->values.exposure > 0)) {
-        return koksma__import_fail(
-            r->camera_place,
-            "a shutter that is open from %g to %g, at ISO %g, makes all light black; pbrt refuses it", r->shutter[0],
-            r->shutter[1], r->iso);
-    }
-    if (!scene->moves) {
-        return KOKSMA_OK;
-    }
-    if (!(length > 0 && r->shutter[0] <= r->shutter[1])) {
-        return koksma__import_fail(r->camera_place, "TransformTimes or the shutter end before they begin");
-    }
-    for (int i = 0; i < 2; i++) {
+    koksma__import_fail_if(scene->n_lights && !(r->values.exposure > 0), r->camera_place,
+                           "a shutter that is open from %g to %g, at ISO %g, makes all light black; pbrt refuses it",
+                           r->shutter[0], r->shutter[1], r->iso);
+    koksma__import_fail_if(scene->moves && !(length > 0 && r->shutter[0] <= r->shutter[1]), r->camera_place,
+                           "TransformTimes or the shutter end before they begin");
+    for (int i = 0; i < 2 && scene->moves; i++) {
         scene->camera.shutter[i] = fmin(fmax((r->shutter[i] - r->times[0]) / length, -FAR), FAR);
     }
-    return KOKSMA_OK;
 }
 
 /* Fills the scene with the medium that contains the camera. */
-static koksma_status set_medium(reader *r)
+static void set_medium(reader *r)
 {
     koksma__medium *to = &r->im->scene->medium;
     size_t i;
@@ -998,11 +903,9 @@ static koksma_status set_medium(reader *r)
     }
     if (koksma__medium_check(r->im->scene)) {
         to->is_there = false;
-        return koksma__import_unknown(
-            r->im, r->camera_place,
-            "the camera's medium is ignored, because it would absorb all light of distant lights");
+        koksma__import_unknown(r->camera_place,
+                               "the camera's medium is ignored, because it would absorb all light of distant lights");
     }
-    return KOKSMA_OK;
 }
 
 /* Whether the text has a line that begins with WorldEnd, which pbrt-v4 does not have. */
@@ -1019,10 +922,44 @@ static bool is_of_v3(const char *text, size_t size)
     return false;
 }
 
+/* Reads the texts of the scene. */
+static void read_all(void *data)
+{
+    reader *r = data;
+    source s = *r->source;
+    take_identity(r);
+    name_space(r, "world", r->now.matrix);
+    r->now.surface.material = koksma__pbrt_material(&r->values, "diffuse", r->parameters);
+    read_source(r, &s);
+    koksma__import_unknown_if(
+        !r->in_world, s.place,
+        "no WorldBegin, from which on the scene is described: what precedes it is read as if it followed");
+    koksma__import_unknown_if(
+        r->n_stack > 0, s.place,
+        "%zu AttributeBegin or ObjectBegin without an end: what follows keeps their transforms and materials",
+        r->n_stack);
+}
+
+/* Sets what directives together describe. */
+static void finish(void *data)
+{
+    reader *r = data;
+    for (size_t i = 0; i < r->n_media; i++) { /* as in pbrt */
+        koksma__import_fail_if(!r->media[i].is_made, r->media[i].used, "no medium '%s'", r->media[i].name);
+    }
+    set_camera(r);
+    set_medium(r);
+    set_shutter(r);
+}
+
 koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t size)
 {
+    source s = {.at = text, .end = text + size, .place = {im, im->path, 1}};
     reader r = {.im = im,
                 .values = {.im = im, .exposure = 1},
+                .source = &s,
+                .place = s.place,
+                .listed = (size_t)NO_DIRECTIVE,
                 .shutter = {0, 1},
                 .iso = 100,
                 .film = {1280, 720},
@@ -1030,48 +967,28 @@ koksma_status koksma__pbrt_read(koksma__import *im, const char *text, size_t siz
                 .now.surface.material = -2,
                 .now.active = START | END,
                 .times = {0, 1}};
-    source s = {.at = text, .end = text + size, .place = {im->path, 1}};
-    im->scene->width = 1280;
-    im->scene->height = 720;
-    im->scene->paths = true;
+    koksma_scene *scene = im->scene;
+    scene->width = 1280;
+    scene->height = 720;
+    scene->paths = true;
     r.parameters = calloc(1, sizeof *r.parameters);
     KOKSMA__REQUIRE_MEMORY(r.parameters, sizeof *r.parameters);
     r.parameters->place = s.place;
-    r.parameters->used = r.used;
     r.parameters->directive = r.parameters->kind = r.parameters->target = "";
-    r.parameters->mistake = &r.mistake;
-    r.parameters->judge = judge_parameters;
-    r.parameters->reader = &r;
-    r.place = s.place;
-    koksma_status status = take_identity(&r);
-    status = status ? status : name_space(&r, "world", r.now.matrix);
-    status = status ? status : koksma__pbrt_material(&r.values, "diffuse", r.parameters, &r.now.surface.material);
-    status = status ? status : read_source(&r, &s);
-    status =
-        status ? status
-               : koksma__import_unknown_if(!r.in_world, im, s.place,
-                                           "no WorldBegin, from which on the scene is described: what precedes it is "
-                                           "read as if it followed");
-    status = status
-                 ? status
-                 : koksma__import_unknown_if(r.n_stack > 0, im, s.place,
-                                             "%zu AttributeBegin or ObjectBegin without an end: what follows keeps "
-                                             "their transforms and materials",
-                                             r.n_stack);
+    koksma_status status = koksma__import_try(im, read_all, &r);
+    status = koksma__unknown_explain(status, scene->unknown, scene->n_unknown > r.listed ? r.listed + 1 : 0);
     if (status == KOKSMA_MALFORMED && is_of_v3(text, size) && !strstr(koksma_error_text(), "pbrt-v3")) {
         status = koksma__fail(status, "%s; the file is of pbrt-v3: 'pbrt --upgrade FILE' prints one of pbrt-v4",
                               koksma_error_text());
     }
-    status = status ? status : check_media(&r);
-    status = status ? status : set_camera(&r);
-    status = status ? status : set_medium(&r);
-    status = status ? status : set_shutter(&r);
+    status = status ? status : koksma__import_try(im, finish, &r);
     for (size_t i = 0; i < r.n_objects; i++) {
         free(r.objects[i].items);
     }
     for (size_t i = 0; i < r.n_attributes; i++) {
         free(r.attributes[i].parameter.numbers);
     }
+    koksma__pbrt_parameters_fini(r.parameters);
     KOKSMA__FREE(r.objects, r.spaces, r.media, r.stack, r.parameters, r.attributes);
     koksma__names_fini(&r.medium_names);
     koksma__names_fini(&r.space_names);

@@ -49,68 +49,55 @@ typedef struct koksma__pbrt_attribute {
     koksma__pbrt_parameter parameter;
 } koksma__pbrt_attribute;
 
-/* The first parameter that is read as something that its type is not. */
-typedef struct koksma__pbrt_mistake {
-    const koksma__pbrt_parameter *at; /* NULL: none */
-    const char *expected;
-} koksma__pbrt_mistake;
-
 typedef struct koksma__pbrt_parameters {
     koksma__pbrt_parameter items[KOKSMA__MAX_PBRT_PARAMETERS];
-    size_t n, n_inherited; /* the first n_inherited come from Attribute directives */
+    bool used[KOKSMA__MAX_PBRT_PARAMETERS]; /* whether koksma__pbrt_find has found it */
+    size_t n, n_inherited;                  /* the first n_inherited come from Attribute directives */
     const koksma__pbrt_attribute *attributes;
     size_t n_attributes;
-    const char *directive, *kind; /* set by the judge */
+    const char *directive, *kind; /* for the table of plug-ins */
     const char *target;           /* "": the directive inherits no attributes */
-    bool *used;                   /* for each parameter, whether koksma__pbrt_find has found it; or NULL */
-    koksma__pbrt_mistake *mistake;
-    /* judges the parameters as soon as they are read, before anything uses them; or NULL */
-    koksma_status (*judge)(void *reader);
-    void *reader;
     koksma__text_place place;
 } koksma__pbrt_parameters;
 
-koksma_status koksma__pbrt_token_next(koksma__pbrt_source *source, koksma__pbrt_token *out);
+koksma__pbrt_token koksma__pbrt_token_next(koksma__pbrt_source *source);
 
 /* Reads the next token without consuming it. */
-koksma_status koksma__pbrt_token_peek(koksma__pbrt_source *source, koksma__pbrt_token *out);
+koksma__pbrt_token koksma__pbrt_token_peek(koksma__pbrt_source *source);
 
 /* Read the next token, which must be a text (of less than `size` bytes), or n numbers. */
-koksma_status koksma__pbrt_text(koksma__pbrt_source *source, char *out, size_t size);
-koksma_status koksma__pbrt_numbers(koksma__pbrt_source *source, size_t n, double *out);
+void koksma__pbrt_text(koksma__pbrt_source *source, char *out, size_t size);
+void koksma__pbrt_numbers(koksma__pbrt_source *source, size_t n, double *out);
 
-/* Reads all parameters up to the next directive, after those that the directive inherits. Errors: MALFORMED (an unknown
-   type, no value, a value of another type,
-   not three numbers for each point, ...). Call koksma__pbrt_parameters_fini even after an error. */
-koksma_status koksma__pbrt_parameters_read(koksma__pbrt_source *source, koksma__pbrt_parameters *out);
+/* Reads all parameters up to the next directive, after those that the directive inherits, and checks that each has values
+   of its type. */
+void koksma__pbrt_parameters_read(koksma__pbrt_source *source, koksma__pbrt_parameters *out);
 
-/* Copies a parameter with its numbers. Error: MEMORY. */
-koksma_status koksma__pbrt_parameter_copy(const koksma__pbrt_parameter *from, koksma__pbrt_parameter *out);
+/* Copies a parameter with its numbers. */
+void koksma__pbrt_parameter_copy(koksma__text_place place, const koksma__pbrt_parameter *from,
+                                 koksma__pbrt_parameter *out);
 void koksma__pbrt_parameters_fini(koksma__pbrt_parameters *parameters);
 
 /* Finds a parameter by its name; NULL if there is none. Of two with one name the last one counts, as in pbrt. */
-const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p, const char *name);
+const koksma__pbrt_parameter *koksma__pbrt_find(koksma__pbrt_parameters *p, const char *name);
 
 /* Whether the parameter's type is one of those in the list, as in "point3 vector3". */
 bool koksma__pbrt_is(const koksma__pbrt_parameter *parameter, const char *types);
 
-/* The same as koksma__pbrt_find for a parameter with one of these types; one of another type is a mistake. */
-const koksma__pbrt_parameter *koksma__pbrt_find_typed(const koksma__pbrt_parameters *p, const char *name,
+/* The same as koksma__pbrt_find for a parameter with one of these types; one of another type fails. */
+const koksma__pbrt_parameter *koksma__pbrt_find_typed(koksma__pbrt_parameters *p, const char *name,
                                                       const char *types);
 
 /* The only number, whole number, text or flag of a parameter; that of the table if it is missing. A parameter of another
-   type, or with several values, is a mistake. A number may also be a texture or spectrum, which is not read: then the
-   parameter stays unused, and the result is that of the table. */
-double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name);
-double koksma__pbrt_whole(const koksma__pbrt_parameters *p, const char *name);
-const char *koksma__pbrt_word(const koksma__pbrt_parameters *p, const char *name);
-bool koksma__pbrt_flag(const koksma__pbrt_parameters *p, const char *name);
+   type, or with several values, fails. A number may also be a texture or spectrum, which is not read: then the parameter
+   stays unused, and the result is that of the table. */
+double koksma__pbrt_number(koksma__pbrt_parameters *p, const char *name);
+double koksma__pbrt_whole(koksma__pbrt_parameters *p, const char *name);
+const char *koksma__pbrt_word(koksma__pbrt_parameters *p, const char *name);
+bool koksma__pbrt_flag(koksma__pbrt_parameters *p, const char *name);
 
 /* Reads a point or vector; without it, *out stays as it is. */
-void koksma__pbrt_point(const koksma__pbrt_parameters *p, const char *name, double out[3]);
-
-/* Returns `status` or, if there was a mistake, MALFORMED with a text that names the parameter, whatever else failed. */
-koksma_status koksma__pbrt_end(const koksma__pbrt_parameters *p, koksma_status status);
+void koksma__pbrt_point(koksma__pbrt_parameters *p, const char *name, double out[3]);
 
 /* ---- Vocabulary ------------------------------------------------------------------------------------------------------ */
 
@@ -123,15 +110,12 @@ bool koksma__pbrt_is_kind(const char *directive, const char *kind);
 const char *koksma__pbrt_kind_meant(const char *directive, const char *kind, char *text);
 
 /* Warns about each of the directive's own parameters that pbrt-v4 would refuse: by its name, its type, or a value that is
-   not in a closed list. A kind that does not exist, or NULL, stands for all kinds. Errors: those of
-   koksma__import_unknown. */
-koksma_status koksma__pbrt_name_parameters(koksma__import *im, const char *directive, const char *kind,
-                                           const koksma__pbrt_parameters *p);
+   not in a closed list. A kind that does not exist, or NULL, stands for all kinds. */
+void koksma__pbrt_name_parameters(const char *directive, const char *kind, const koksma__pbrt_parameters *p);
 
 /* Warns about those that pbrt knows and nothing has looked up, except those that have no effect on the pictures that
    Koksma makes. */
-koksma_status koksma__pbrt_name_unused(koksma__import *im, const char *directive, const char *kind,
-                                       const koksma__pbrt_parameters *p);
+void koksma__pbrt_name_unused(const koksma__pbrt_parameters *p);
 
 /* ---- Values ---------------------------------------------------------------------------------------------------------- */
 
@@ -149,33 +133,27 @@ typedef struct koksma__pbrt_scene {
 void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene);
 
 /* Radiance or intensity: the colour `name`, or white if there is none, times the parameter "scale" and the exposure. */
-koksma_status koksma__pbrt_emission(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
-                                    double rgb[3]);
+void koksma__pbrt_emission(koksma__pbrt_scene *scene, koksma__pbrt_parameters *p, const char *name, double rgb[3]);
 
 /* A medium's absorption or scattering: the colour `name`, or 1 if there is none, times the parameter "scale"; at most FAR.
-   Errors: MALFORMED (one that is negative, which pbrt refuses as well). */
-koksma_status koksma__pbrt_coefficient(koksma__pbrt_scene *scene, const koksma__pbrt_parameters *p, const char *name,
-                                       double rgb[3]);
+   One that is negative fails, which pbrt refuses as well. */
+void koksma__pbrt_coefficient(koksma__pbrt_scene *scene, koksma__pbrt_parameters *p, const char *name, double rgb[3]);
 
 /* type: "float" or "spectrum", which have separate names. */
-koksma_status koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *type, const char *kind,
-                                   const koksma__pbrt_parameters *p);
+void koksma__pbrt_texture(koksma__pbrt_scene *scene, const char *name, const char *type, const char *kind,
+                          koksma__pbrt_parameters *p);
 
-/* Makes a material; *out is its index, or -1 if light passes through. */
-koksma_status koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
-                                    int *out);
-koksma_status koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *name,
-                                         const koksma__pbrt_parameters *p);
-koksma_status koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text_place place, const char *name,
-                                         int *out);
+/* Make or find a material, and return its index, or -1 if light passes through. */
+int koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, koksma__pbrt_parameters *p);
+void koksma__pbrt_name_material(koksma__pbrt_scene *scene, const char *name, koksma__pbrt_parameters *p);
+int koksma__pbrt_find_material(koksma__pbrt_scene *scene, koksma__text_place place, const char *name);
 
-/* Sets the item's basic shape or mesh, and the matrix that gives a basic shape its size; *is_there is false if
-   the shape is left out. `power` above 0 is that of the light that the shape is, whose radiance is for radiant exitance
-   pi: the radiance is scaled accordingly; `placed` is the matrix that the item gets. pbrt-v4 makes a light of each
-   triangle, and of each patch of a bilinear mesh, and gives each this power; it takes the areas of spheres, disks and
-   cylinders before their matrix is applied. */
-koksma_status koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, const koksma__pbrt_parameters *p,
-                                 double power, const double placed[12], koksma__import_item *item, double matrix[12],
-                                 bool *is_there);
+/* Sets the item's basic shape or mesh, and the matrix that gives a basic shape its size; returns false if the shape is left
+   out. `power` above 0 is that of the light that the shape is, whose radiance is for radiant exitance pi: the radiance is
+   scaled accordingly; `placed` is the matrix that the item gets. pbrt-v4 makes a light of each triangle, and of each patch
+   of a bilinear mesh, and gives each this power; it takes the areas of spheres, disks and cylinders before their matrix is
+   applied. */
+bool koksma__pbrt_shape(koksma__pbrt_scene *scene, const char *type, koksma__pbrt_parameters *p, double power,
+                        const double placed[12], koksma__import_item *item, double matrix[12]);
 
 #endif

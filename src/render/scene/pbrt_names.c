@@ -251,37 +251,31 @@ static verdict judge(const char *directive, const char *kind, const koksma__pbrt
     return best;
 }
 
-koksma_status koksma__pbrt_name_unused(koksma__import *im, const char *directive, const char *kind,
-                                       const koksma__pbrt_parameters *p)
+void koksma__pbrt_name_unused(const koksma__pbrt_parameters *p)
 {
     for (size_t i = p->n_inherited; i < p->n; i++) {
         char meant[KOKSMA__OR_MEANT];
-        KOKSMA__TRY(koksma__import_unknown_if(!p->used[i] && judge(directive, kind, &p->items[i], meant) == KNOWN, im,
-                                              (koksma__text_place){p->place.file, p->items[i].line},
-                                              "parameter '%s' of %s is ignored", p->items[i].name, directive));
+        const koksma__text_place place = {p->place.im, p->place.file, p->items[i].line};
+        koksma__import_unknown_if(!p->used[i] && judge(p->directive, p->kind, &p->items[i], meant) == KNOWN, place,
+                                  "parameter '%s' of %s is ignored", p->items[i].name, p->directive);
     }
-    return KOKSMA_OK;
 }
 
-koksma_status koksma__pbrt_name_parameters(koksma__import *im, const char *directive, const char *kind,
-                                           const koksma__pbrt_parameters *p)
+void koksma__pbrt_name_parameters(const char *directive, const char *kind, const koksma__pbrt_parameters *p)
 {
     for (size_t i = p->n_inherited; i < p->n; i++) {
         const koksma__pbrt_parameter *at = &p->items[i];
-        const koksma__text_place place = {p->place.file, at->line};
+        const koksma__text_place place = {p->place.im, p->place.file, at->line};
         char meant[KOKSMA__OR_MEANT];
         const verdict found = judge(directive, kind, at, meant);
-        KOKSMA__TRY(
-            found == NO_SUCH_NAME
-                ? koksma__import_unknown(im, place, "parameter '%s' of %s is unknown%s", at->name, directive, meant)
-            : found == NO_SUCH_TYPE
-                ? koksma__import_unknown(im, place, "parameter '%s' of %s has the type '%s'; pbrt reads it as %s",
-                                         at->name, directive, at->type, meant)
-            : found == NO_SUCH_VALUE ? koksma__import_unknown(im, place, "%s of %s: the value '%.40s' is unknown%s",
-                                                              at->name, directive, at->text, meant)
-                                     : KOKSMA_OK);
+        koksma__import_unknown_if(found == NO_SUCH_NAME, place, "parameter '%s' of %s is unknown%s", at->name,
+                                  directive, meant);
+        koksma__import_unknown_if(found == NO_SUCH_TYPE, place,
+                                  "parameter '%s' of %s has the type '%s'; pbrt reads it as %s", at->name, directive,
+                                  at->type, meant);
+        koksma__import_unknown_if(found == NO_SUCH_VALUE, place, "%s of %s: the value '%.40s' is unknown%s", at->name,
+                                  directive, at->text, meant);
     }
-    return KOKSMA_OK;
 }
 
 /* ---- Values -------------------------------------------------------------------------------------------------- */
@@ -294,15 +288,13 @@ static double otherwise(const koksma__pbrt_parameters *p, const char *name)
     return koksma__plugin_entry(&koksma__pbrt_plugins, of, p->kind, name, &e) ? koksma__entry_number(&e) : 0;
 }
 
-const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p, const char *name)
+const koksma__pbrt_parameter *koksma__pbrt_find(koksma__pbrt_parameters *p, const char *name)
 {
     const koksma__pbrt_parameter *found = NULL;
     for (size_t i = 0; i < p->n; i++) {
         if (!strcmp(p->items[i].name, name)) {
             found = &p->items[i];
-            if (p->used) {
-                p->used[i] = true;
-            }
+            p->used[i] = true;
         }
     }
     return found;
@@ -310,51 +302,39 @@ const koksma__pbrt_parameter *koksma__pbrt_find(const koksma__pbrt_parameters *p
 
 bool koksma__pbrt_is(const koksma__pbrt_parameter *parameter, const char *list)
 {
-    const size_t length = strlen(parameter->type);
-    for (; *list; list += strspn(list, " ")) {
-        const size_t word = strcspn(list, " ");
-        if (word == length && !memcmp(list, parameter->type, length)) {
-            return true;
-        }
-        list += word;
-    }
-    return false;
+    return koksma__lists(list, strlen(list), ' ', parameter->type);
 }
 
-static void note(const koksma__pbrt_parameters *p, const koksma__pbrt_parameter *at, const char *expected)
+static void need(bool is_right, const koksma__pbrt_parameters *p, const koksma__pbrt_parameter *at,
+                 const char *expected)
 {
-    if (!p->mistake->at) {
-        *p->mistake = (koksma__pbrt_mistake){at, expected};
+    if (!is_right) {
+        koksma__import_fail((koksma__text_place){p->place.im, p->place.file, at->line},
+                            "%s: a '%s' of %zu values; expected: %s", at->name, at->type, at->n + at->n_texts,
+                            expected);
     }
 }
 
-const koksma__pbrt_parameter *koksma__pbrt_find_typed(const koksma__pbrt_parameters *p, const char *name,
-                                                      const char *list)
+const koksma__pbrt_parameter *koksma__pbrt_find_typed(koksma__pbrt_parameters *p, const char *name, const char *list)
 {
     const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
-    if (found && !koksma__pbrt_is(found, list)) {
-        note(p, found, list);
-        return NULL;
-    }
+    need(!found || koksma__pbrt_is(found, list), p, found, list);
     return found;
 }
 
 /* Finds a parameter with `count` numbers, or one text. */
-static const koksma__pbrt_parameter *find_values(const koksma__pbrt_parameters *p, const char *name, const char *list,
+static const koksma__pbrt_parameter *find_values(koksma__pbrt_parameters *p, const char *name, const char *list,
                                                  size_t count)
 {
     const koksma__pbrt_parameter *found = koksma__pbrt_find_typed(p, name, list);
-    if (found && found->n_texts != 1 && found->n != count) {
-        note(p, found, "one value");
-        return NULL;
-    }
+    need(!found || found->n_texts == 1 || found->n == count, p, found, "one value");
     return found;
 }
 
-double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name)
+double koksma__pbrt_number(koksma__pbrt_parameters *p, const char *name)
 {
     const koksma__pbrt_parameter *found = koksma__pbrt_find(p, name);
-    if (found && p->used && koksma__pbrt_is(found, "texture spectrum rgb")) {
+    if (found && koksma__pbrt_is(found, "texture spectrum rgb")) {
         p->used[found - p->items] = false;
         return otherwise(p, name);
     }
@@ -362,37 +342,28 @@ double koksma__pbrt_number(const koksma__pbrt_parameters *p, const char *name)
     return found ? found->numbers[0] : otherwise(p, name);
 }
 
-double koksma__pbrt_whole(const koksma__pbrt_parameters *p, const char *name)
+double koksma__pbrt_whole(koksma__pbrt_parameters *p, const char *name)
 {
     const koksma__pbrt_parameter *found = find_values(p, name, "integer", 1);
     return found ? found->numbers[0] : otherwise(p, name);
 }
 
-const char *koksma__pbrt_word(const koksma__pbrt_parameters *p, const char *name)
+const char *koksma__pbrt_word(koksma__pbrt_parameters *p, const char *name)
 {
     const koksma__pbrt_parameter *found = find_values(p, name, "string", 1);
     return found ? found->text : "";
 }
 
-bool koksma__pbrt_flag(const koksma__pbrt_parameters *p, const char *name)
+bool koksma__pbrt_flag(koksma__pbrt_parameters *p, const char *name)
 {
     const koksma__pbrt_parameter *found = find_values(p, name, "bool", 1);
     return found ? !strcmp(found->text, "true") : otherwise(p, name) != 0;
 }
 
-void koksma__pbrt_point(const koksma__pbrt_parameters *p, const char *name, double out[3])
+void koksma__pbrt_point(koksma__pbrt_parameters *p, const char *name, double out[3])
 {
     const koksma__pbrt_parameter *found = find_values(p, name, "point3 point vector3 vector", 3);
     if (found) {
         memcpy(out, found->numbers, 3 * sizeof *out);
     }
-}
-
-koksma_status koksma__pbrt_end(const koksma__pbrt_parameters *p, koksma_status status)
-{
-    const koksma__pbrt_parameter *at = p->mistake->at;
-    return at && status != KOKSMA_MEMORY ? koksma__import_fail((koksma__text_place){p->place.file, at->line},
-                                                               "%s: a '%s' of %zu values; expected: %s", at->name,
-                                                               at->type, at->n + at->n_texts, p->mistake->expected)
-                                         : status;
 }

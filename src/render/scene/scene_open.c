@@ -134,7 +134,7 @@ static koksma_status read_import_text(const char *path, const char *text, size_t
     scene->clamp = INFINITY;
     scene->hash = koksma__hash(text, size) + READER_REVISION;
     const koksma_status status = (is_pbrt(path) ? koksma__pbrt_read : koksma__mitsuba_read)(&im, text, size);
-    koksma__import_shapes_fini(&im);
+    koksma__import_fini(&im);
     if (!status) {
         koksma__scene_finish(scene);
     }

@@ -45,48 +45,46 @@ const char *koksma__xml_attribute(const koksma__xml_node *node, const char *name
 }
 
 /* Warns about an element that no reader has taken. */
-static koksma_status name_element(koksma__import *im, const koksma__xml_node *parent, const koksma__xml_node *n,
-                                  const char *meant)
+static void name_element(const koksma__xml_node *parent, const koksma__xml_node *n, const char *meant)
 {
     const char *name = koksma__xml_attribute(n, "name"), *type = koksma__xml_attribute(parent, "type");
     char what[80], where[136];
     snprintf(what, sizeof what, name ? "'%.60s' of" : "<%.60s> in", name ? name : n->tag);
     snprintf(where, sizeof where, type ? "%.60s '%.60s'" : "%.60s", parent->tag, type);
-    return koksma__import_unknown(im, n->place, "%s %s is ignored%s", what, where, meant);
+    koksma__import_unknown(n->place, "%s %s is ignored%s", what, where, meant);
 }
 
 /* Warns about the attributes of an element that no reader has looked up; all elements may have a name and an id. */
-static koksma_status name_attributes(koksma__import *im, const koksma__xml_node *n)
+static void name_attributes(const koksma__xml_node *n)
 {
     for (size_t i = 0; n->attributes[i]; i += 2) {
         const char *name = n->attributes[i];
-        if (!n->marks[1 + i / 2] && strcmp(name, "name") != 0 && strcmp(name, "id") != 0) {
-            KOKSMA__TRY(
-                koksma__import_unknown(im, n->place, "attribute '%.60s' of <%.60s> is ignored", name, n->tag));
-        }
+        koksma__import_unknown_if(!n->marks[1 + i / 2] && strcmp(name, "name") != 0 && strcmp(name, "id") != 0,
+                                  n->place, "attribute '%.60s' of <%.60s> is ignored", name, n->tag);
     }
-    return KOKSMA_OK;
 }
 
-koksma_status koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml, koksma__xml_meant *meant,
-                                      const void *context)
+void koksma__xml_name_unread(koksma__import *im, const koksma__xml *xml, koksma__xml_meant *meant,
+                             const void *context)
 {
     char text[KOKSMA__OR_MEANT];
     /* parents precede their children, so that marks go down the tree in one pass */
     for (size_t i = 0; i < xml->n && !koksma__import_is_full(im); i++) {
         const koksma__xml_node *n = &xml->nodes[i];
         const bool covered = n->marks[0] & KOKSMA__XML_COVERED;
-        KOKSMA__TRY(koksma__import_spend(im, n->place, 1));
-        KOKSMA__TRY(covered ? KOKSMA_OK : name_attributes(im, n));
+        koksma__import_spend(n->place, 1);
+        if (!covered) {
+            name_attributes(n);
+        }
         for (int c = n->first; c >= 0 && !koksma__import_is_full(im); c = xml->nodes[c].next) {
             const koksma__xml_node *child = &xml->nodes[c];
-            KOKSMA__TRY(covered || child->marks[0] & KOKSMA__XML_TAKEN
-                            ? KOKSMA_OK
-                            : name_element(im, n, child, meant(context, n, child, text)));
-            koksma__xml_mark(child, covered || !(child->marks[0] & KOKSMA__XML_TAKEN) ? KOKSMA__XML_COVERED : 0);
+            const bool taken = child->marks[0] & KOKSMA__XML_TAKEN;
+            if (!covered && !taken) {
+                name_element(n, child, meant(context, n, child, text));
+            }
+            koksma__xml_mark(child, covered || !taken ? KOKSMA__XML_COVERED : 0);
         }
     }
-    return KOKSMA_OK;
 }
 
 bool koksma__xml_alike(const char *text, const char *name, size_t length)
@@ -114,13 +112,16 @@ enum { MOST_DEPTH = 64, MOST_INCLUDED = 16, MOST_NODES = 1 << 20, MOST_VALUE = 1
 /* What the C library and the readers take for each node beside its texts. */
 enum { HELD_WITH_NODE = 64 + sizeof(koksma__xml_node) };
 
-/* The state while one file is parsed. */
+/* The state while one file is parsed. Functions that expat calls do not jump out of it: a failure within them stops the
+   parser. */
 typedef struct reading {
     koksma__import *im;
     koksma__xml *xml;
     XML_Parser parser;
     const char *file;
     koksma_status status;
+    const char *tag, **attributes; /* of the element that is read, at this place */
+    koksma__text_place place;
     /* for each depth, the node to which children are added; -1: no node, at the root of the scene's own file */
     int open[MOST_DEPTH + 1];
     int depth, included;
@@ -133,23 +134,10 @@ static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char 
 
 static koksma__text_place here(const reading *r)
 {
-    return (koksma__text_place){r->file, XML_GetCurrentLineNumber(r->parser)};
+    return (koksma__text_place){r->im, r->file, XML_GetCurrentLineNumber(r->parser)};
 }
 
-static void stop(reading *r, koksma_status status)
-{
-    if (status && !r->status) {
-        r->status = status;
-        XML_StopParser(r->parser, XML_FALSE);
-    }
-}
-
-static void fail_memory(reading *r)
-{
-    stop(r, r->status ? r->status : koksma__fail_memory(MOST_VALUE));
-}
-
-/* Adds a text to r->texts, with the values of $names in place of the names; sets r->status after an error. */
+/* Adds a text to r->texts, with the values of $names in place of the names. */
 static void add_text(reading *r, const char *value)
 {
     size_t used = 0, surplus = 0, index;
@@ -160,47 +148,41 @@ static void add_text(reading *r, const char *value)
             taken = 1 + strspn(value + 1, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
             from = koksma__names_find(&r->xml->default_names, value + 1, taken - 1, &index) ? r->xml->defaults[index]
                                                                                             : NULL;
-            length = from ? strlen(from) : 0;
+            koksma__import_fail_if(!from, r->place, "no default for '%.*s'", (int)taken, value);
+            length = strlen(from);
             surplus += length;
         }
-        if (!from || used + length > MOST_VALUE) {
-            stop(r, from ? koksma__import_fail(here(r), "a value is longer than %d characters", MOST_VALUE)
-                         : koksma__import_fail(here(r), "no default for '%.*s'", (int)taken, value));
-            return;
-        }
-        stop(r, koksma__reserve(&r->texts, &r->texts_capacity, r->n_texts + length + 1, 1));
-        if (r->status) {
-            return;
-        }
+        koksma__import_fail_if(used + length > MOST_VALUE, r->place, "a value is longer than %d characters",
+                               MOST_VALUE);
+        koksma__import_pass(r->place, koksma__reserve(&r->texts, &r->texts_capacity, r->n_texts + length + 1, 1));
         memcpy(r->texts + r->n_texts, from, length);
         r->n_texts += length;
         used += length;
         value += taken;
     }
-    stop(r, koksma__import_spend(r->im, here(r), surplus / KOKSMA__STEP_TEXT));
-    stop(r, koksma__reserve(&r->texts, &r->texts_capacity, r->n_texts + 1, 1));
-    if (!r->status) {
-        r->texts[r->n_texts++] = 0;
-    }
+    koksma__import_spend(r->place, surplus / KOKSMA__STEP_TEXT);
+    koksma__import_pass(r->place, koksma__reserve(&r->texts, &r->texts_capacity, r->n_texts + 1, 1));
+    r->texts[r->n_texts++] = 0;
+}
+
+/* Adds a copy of a text to a list. */
+static char *keep(koksma__text_place place, const char *text, char ***list, size_t *n)
+{
+    char **to = koksma__import_add(place, list, n, sizeof *to);
+    *to = strdup(text);
+    koksma__import_pass(place, *to ? KOKSMA_OK : koksma__fail_memory(strlen(text)));
+    return *to;
 }
 
 static void add_default(reading *r, const koksma__xml_node *node)
 {
     const char *name = koksma__xml_attribute(node, "name"), *value = koksma__xml_attribute(node, "value");
+    koksma__xml *to = r->xml;
     size_t index;
-    if (!name || !value || koksma__names_find(&r->xml->default_names, name, strlen(name), &index)) {
-        return;
-    }
-    stop(r, koksma__import_hold(r->im, node->place, strlen(value) + KOKSMA__HELD_WITH_NAME));
-    if (r->status) {
-        return;
-    }
-    char **to = koksma__add_one(&r->xml->defaults, &r->xml->n_defaults, sizeof *to);
-    if (to) {
-        *to = strdup(value);
-    }
-    if (!to || !*to || koksma__names_put(&r->xml->default_names, name, strlen(name), r->xml->n_defaults - 1)) {
-        fail_memory(r);
+    if (name && value && !koksma__names_find(&to->default_names, name, strlen(name), &index)) {
+        koksma__import_hold(node->place, strlen(value) + KOKSMA__HELD_WITH_NAME);
+        keep(node->place, value, &to->defaults, &to->n_defaults);
+        koksma__import_put_name(node->place, &to->default_names, name, to->n_defaults - 1);
     }
 }
 
@@ -208,38 +190,34 @@ static void include(reading *r, const koksma__xml_node *node, int parent)
 {
     const char *name = koksma__xml_attribute(node, "filename");
     const koksma__text_place place = node->place;
-    char *bytes = NULL, *kept = name ? strdup(name) : NULL;
-    size_t size = 0;
-    if (!name || r->included == MOST_INCLUDED) {
-        free(kept);
-        stop(r, name ? koksma__import_fail(place, "files include each other more than %d deep", MOST_INCLUDED)
-                     : koksma__import_fail(place, "<include> without filename"));
-        return;
-    }
-    char **file = koksma__add_one(&r->xml->files, &r->xml->n_files, sizeof *file);
-    if (!kept || !file) {
-        free(kept);
-        r->xml->n_files -= file != NULL;
-        fail_memory(r);
-        return;
-    }
-    *file = kept;
-    koksma_status status = koksma__import_text(r->im, place, kept, &bytes, &size);
-    status = status ? status : read_text(r->im, r->xml, kept, bytes, size, parent, r->included + 1);
-    koksma__import_text_close(r->im, bytes, size);
-    stop(r, status);
+    koksma__import_fail_if(!name, place, "<include> without filename");
+    koksma__import_fail_if(r->included == MOST_INCLUDED, place, "files include each other more than %d deep",
+                           MOST_INCLUDED);
+    name = keep(place, name, &r->xml->files, &r->xml->n_files);
+    const koksma__open_text text = koksma__import_text(place, name);
+    koksma__import_pass(place, read_text(r->im, r->xml, name, text.bytes, text.size, parent, r->included + 1));
+    koksma__import_text_close(r->im);
+}
+
+static void add_folder(koksma__text_place place, const char *name)
+{
+    koksma__import *im = place.im;
+    char with_slash[KOKSMA__MAX_PATH];
+    koksma__import_fail_if(!name, place, "<path> without value");
+    koksma__import_fail_if(im->n_folders == sizeof im->folders / sizeof *im->folders, place, "more than %zu paths",
+                           im->n_folders);
+    koksma__import_fail_if((size_t)snprintf(with_slash, sizeof with_slash, "%s/", name) >= sizeof with_slash ||
+                               !koksma__path_beside(im->path, with_slash, im->folders[im->n_folders++]),
+                           place, "the path is too long");
 }
 
 /* Makes the block of memory that has a node's attributes, its tag and their texts, from those in r->texts. */
 static void set_texts(reading *r, koksma__xml_node *node, size_t n)
 {
     const size_t texts = (n + 1) * sizeof *node->attributes, size = texts + r->n_texts + 1 + n / 2;
-    stop(r, koksma__import_hold(r->im, node->place, HELD_WITH_NODE + size));
-    node->attributes = r->status ? NULL : malloc(size);
-    if (!node->attributes) {
-        fail_memory(r);
-        return;
-    }
+    koksma__import_hold(node->place, HELD_WITH_NODE + size);
+    node->attributes = malloc(size);
+    koksma__import_pass(node->place, node->attributes ? KOKSMA_OK : koksma__fail_memory(size));
     char *at = memcpy(node->attributes + n + 1, r->texts, r->n_texts);
     node->tag = at;
     for (size_t i = 0; i < n; i++) {
@@ -251,72 +229,74 @@ static void set_texts(reading *r, koksma__xml_node *node, size_t n)
     node->marks = memset((char *)node->attributes + texts + r->n_texts, 0, 1 + n / 2);
 }
 
-/* Adds a node for an element to the children of its parent. */
-static int add_node(reading *r, const char *tag, const char **attributes, int parent)
+/* Adds a node for the element that is read to the children of its parent. */
+static int add_node(reading *r, int parent)
 {
+    koksma__xml *to = r->xml;
     size_t n = 0;
-    if (r->xml->n == MOST_NODES) {
-        stop(r, koksma__import_fail(here(r), "more than %d elements", MOST_NODES));
-        return -1;
-    }
-    koksma__xml_node *node = koksma__add_one(&r->xml->nodes, &r->xml->n, sizeof *node);
-    if (!node) {
-        fail_memory(r);
-        return -1;
-    }
-    *node = (koksma__xml_node){.place = here(r), .first = -1, .last = -1, .next = -1};
+    koksma__import_fail_if(to->n == MOST_NODES, r->place, "more than %d elements", MOST_NODES);
+    koksma__xml_node *node = koksma__import_add(r->place, &to->nodes, &to->n, sizeof *node);
+    *node = (koksma__xml_node){.place = r->place, .first = -1, .last = -1, .next = -1};
     r->n_texts = 0;
-    add_text(r, tag);
-    for (; attributes[n] && !r->status; n++) {
-        add_text(r, attributes[n]);
+    add_text(r, r->tag);
+    for (; r->attributes[n]; n++) {
+        add_text(r, r->attributes[n]);
     }
-    if (!r->status) {
-        set_texts(r, node, n);
-    }
-    const int self = (int)r->xml->n - 1;
-    if (parent >= 0 && !r->status) {
-        koksma__xml_node *above = &r->xml->nodes[parent];
-        *(above->last < 0 ? &above->first : &r->xml->nodes[above->last].next) = self;
+    set_texts(r, node, n);
+    const int self = (int)to->n - 1;
+    if (parent >= 0) {
+        koksma__xml_node *above = &to->nodes[parent];
+        *(above->last < 0 ? &above->first : &to->nodes[above->last].next) = self;
         above->last = self;
     }
     return self;
 }
 
-static void start_element(void *data, const char *tag, const char **attributes)
+static void read_element(void *data)
 {
     reading *r = data;
-    if (r->status) {
-        return;
-    }
-    if (r->depth == MOST_DEPTH) {
-        stop(r, koksma__import_fail(here(r), "elements are nested more than %d deep", MOST_DEPTH));
-        return;
-    }
+    koksma__import_fail_if(r->depth == MOST_DEPTH, r->place, "elements are nested more than %d deep", MOST_DEPTH);
     const int parent = r->open[r->depth];
     const bool is_included_root = r->depth == 0 && r->included;
     /* the children of an included scene go to the including element's parent, and any other object goes there itself */
-    if (is_included_root && !strcmp(tag, "scene")) {
+    if (is_included_root && !strcmp(r->tag, "scene")) {
         r->open[++r->depth] = parent;
         return;
     }
-    const int node = add_node(r, tag, attributes, parent);
-    r->open[++r->depth] = node;
-    if (!r->status && is_included_root) {
-        (void)koksma__xml_attribute(&r->xml->nodes[node], "version");
+    const char *tag = r->tag;
+    const int number = add_node(r, parent);
+    r->open[++r->depth] = number;
+    const koksma__xml_node node = r->xml->nodes[number]; /* including a file may move the array */
+    if (is_included_root) {
+        (void)koksma__xml_attribute(&node, "version");
+        koksma__import_fail_if(!koksma__xml_attribute(&node, "type"), node.place,
+                               "an included file is a <%.60s>; it must be a <scene> or an object with a 'type'", tag);
     }
-    if (!r->status && is_included_root && !koksma__xml_attribute(&r->xml->nodes[node], "type")) {
-        stop(r, koksma__import_fail(
-                    here(r), "an included file is a <%.60s>; it must be a <scene> or an object with a 'type'", tag));
+    if (!strcmp(tag, "default")) {
+        add_default(r, &node);
+    } else if (!strcmp(tag, "include")) {
+        include(r, &node, parent);
+    } else if (!strcmp(tag, "path")) {
+        add_folder(node.place, koksma__xml_attribute(&node, "value"));
     }
-    if (!r->status && !strcmp(tag, "default")) {
-        add_default(r, &r->xml->nodes[node]);
-    } else if (!r->status && !strcmp(tag, "include")) {
-        const koksma__xml_node copy = r->xml->nodes[node]; /* including a file may move the array */
-        include(r, &copy, parent);
-    } else if (!r->status && !strcmp(tag, "path")) {
-        const char *folder = koksma__xml_attribute(&r->xml->nodes[node], "value");
-        stop(r, folder ? koksma__import_folder(r->im, here(r), folder)
-                       : koksma__import_fail(here(r), "<path> without value"));
+}
+
+static void stop(reading *r, koksma_status status)
+{
+    if (status) {
+        r->status = status;
+        XML_StopParser(r->parser, XML_FALSE);
+    }
+}
+
+static void start_element(void *data, const char *tag, const char **attributes)
+{
+    reading *r = data;
+    r->tag = tag;
+    r->attributes = attributes;
+    r->place = here(r);
+    if (!r->status) {
+        stop(r, koksma__import_try(r->im, read_element, r));
     }
 }
 
@@ -327,11 +307,16 @@ static void end_element(void *data, const char *tag)
     r->depth--;
 }
 
+static void refuse(void *data)
+{
+    koksma__import_fail(here(data), "a document type declaration is not allowed in a scene");
+}
+
 static void refuse_doctype(void *data, const char *name, const char *system, const char *public, int internal)
 {
     reading *r = data;
     (void)name, (void)system, (void)public, (void)internal;
-    stop(r, koksma__import_fail(here(r), "a document type declaration is not allowed in a scene"));
+    stop(r, koksma__import_try(r->im, refuse, r));
 }
 
 /* The memory of expat, which has dozens of bytes for each name and attribute of a text. Its functions have no context, so
@@ -375,19 +360,15 @@ static void parser_free(void *old)
     }
 }
 
-/* The failure of a parser that did not get the memory it asked for. */
-static koksma_status fail_parser_memory(koksma__text_place place, size_t size)
+/* The failure of a parser that has stopped or could not be made. */
+static koksma_status fail_parser(koksma__text_place place, enum XML_Error error, size_t size)
 {
-    return is_too_much ? koksma__import_fail(place, "the names and attributes up to here take more than %d MiB",
-                                             MOST_PARSER >> 20)
-                       : koksma__fail_memory(size);
-}
-
-static koksma_status fail_parser(reading *r, size_t size)
-{
-    const enum XML_Error error = XML_GetErrorCode(r->parser);
-    return error == XML_ERROR_NO_MEMORY ? fail_parser_memory(here(r), size)
-                                        : koksma__import_fail(here(r), "%s", XML_ErrorString(error));
+    KOKSMA__FAIL_IF(error != XML_ERROR_NO_MEMORY, KOKSMA_MALFORMED, "%s:%lu: %s", place.file, place.line,
+                    XML_ErrorString(error));
+    KOKSMA__FAIL_IF(is_too_much, KOKSMA_MALFORMED,
+                    "%s:%lu: the names and attributes up to here take more than %d MiB", place.file, place.line,
+                    MOST_PARSER >> 20);
+    return koksma__fail_memory(size);
 }
 
 static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char *file, const char *text, size_t size,
@@ -398,31 +379,32 @@ static koksma_status read_text(koksma__import *im, koksma__xml *xml, const char 
     reading r = {
         .im = im, .xml = xml, .file = file, .parser = XML_ParserCreate_MM(NULL, &memory, NULL), .included = included};
     if (!r.parser) {
-        return fail_parser_memory((koksma__text_place){file, 1}, size);
+        return fail_parser((koksma__text_place){im, file, 1}, XML_ERROR_NO_MEMORY, size);
     }
     r.open[0] = parent;
     XML_SetUserData(r.parser, &r);
     XML_SetElementHandler(r.parser, start_element, end_element);
     XML_SetStartDoctypeDeclHandler(r.parser, refuse_doctype);
     if (XML_Parse(r.parser, text, (int)size, 1) == XML_STATUS_ERROR && !r.status) {
-        r.status = fail_parser(&r, size);
+        r.status = fail_parser(here(&r), XML_GetErrorCode(r.parser), size);
     }
     XML_ParserFree(r.parser);
     free(r.texts);
     return r.status;
 }
 
-koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out)
+void koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out)
 {
-    return read_text(im, out, im->path, text, size, -1, 0);
+    koksma__import_pass((koksma__text_place){.im = im}, read_text(im, out, im->path, text, size, -1, 0));
 }
 
 #else
 
-koksma_status koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out)
+void koksma__xml_read(koksma__import *im, const char *text, size_t size, koksma__xml *out)
 {
     (void)text, (void)size, (void)out;
-    return koksma__fail(KOKSMA_UNSUPPORTED, "%s: this build has no expat, which reads XML", im->path);
+    koksma__import_pass((koksma__text_place){.im = im},
+                        koksma__fail(KOKSMA_UNSUPPORTED, "%s: this build has no expat, which reads XML", im->path));
 }
 
 #endif
