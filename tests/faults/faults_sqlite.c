@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SQLite with faults: its usual files and memory, with a question asked before each call. The files offer no shared
-   memory, which a store in exclusive mode does without (https://sqlite.org/wal.html, section 8). */
+   memory, which only a write-ahead log would need. */
 #include <sqlite3.h>
 
 #include "faults.h"

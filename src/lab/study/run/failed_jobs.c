@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Counts the jobs of each task that failed without ending the run, and lists these in the store
-   (store_failed.c). */
+   (store.c). */
 #include "study/run/run.h"
 
 #include <stdio.h>

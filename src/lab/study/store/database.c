@@ -3,72 +3,45 @@
  * SQLite behind a narrow interface: opens a file, runs statements, binds values, steps through rows, and turns
  * error codes into a status and a text. No other file includes sqlite3.h.
  *
- * A database may come from an untrusted source. Its header is checked before SQLite opens it; every connection is
- * "defensive", does not trust the schema, and has triggers and views switched off
- * (https://sqlite.org/security.html).
- *
- * To read a file, a second handle, which is used only for locking, takes the shared lock that SQLite's readers take.
- * The file then can't change and is opened as immutable: SQLite takes no further locks and makes no write-ahead log,
- * so that the folder need not be writable. If a killed run has left a write-ahead log, SQLite needs an index of the
- * log. It keeps that index in memory only in exclusive mode, in which it would lock the file for writing. The VFS
- * "unix-none", which has no locks, prevents that write lock; the second handle's shared lock still protects the file.
+ * A database may come from an untrusted source: every connection is "defensive", does not trust the schema, and has
+ * triggers and views switched off (https://sqlite.org/security.html).
  */
 #include "study/store/store_internal.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <sqlite3.h>
 
 #include "core/status.h"
 
-enum { MAX_PATH = 4096, HEADER = 100 };
-
-/* A file opened through SQLite's VFS, which refers to the name until the file is closed. */
-typedef struct held_file {
-    char *name;
-    sqlite3_file file; /* must be last: the VFS needs further bytes after this member */
-} held_file;
-
 struct koksma__database {
     sqlite3 *file;
-    held_file *lock;             /* the second handle, which holds SQLite's shared lock while the file is read */
-    char *path;                  /* the path, for error messages */
-    char real[MAX_PATH];         /* the absolute path, which SQLite cannot take for a URI */
-    char uri[3 * MAX_PATH + 64]; /* the URI that opens the file for reading */
+    bool writes;
+    char *path; /* for error messages */
 };
 
-/* How long to wait for a lock, and how often to try. A lock ends with its process, but a killed process may hold it
-   for a while, until the system has removed the process. */
-enum { LAST_BREATH_MS = 1500, LOOK_AGAIN_MS = 10 };
-
-/* A reader is kept out by runs only, and a run by other runs and by readers. */
-static koksma_status fail_busy(const koksma__database *database)
-{
-    return koksma__fail(KOKSMA_IO,
-                        database->lock ? "%s: another run is using it"
-                                       : "%s: another run, or an export, report or audit, is using it",
-                        database->path);
-}
+/* How long to wait for a lock. A lock ends with its process, but a killed process may hold it for a while, until the
+   system has removed the process. */
+enum { LAST_BREATH_MS = 1500 };
 
 /* Returns the system's error number behind SQLite's last error, or 0. SQLite keeps one for the connection, which a
-   rollback after the error may have overwritten, and one for each file: the database, and its write-ahead log or
-   journal, to which most writes go. */
+   rollback after the error may have overwritten, and one for each file. */
 static int system_error(sqlite3 *file)
 {
-    sqlite3_file *log = NULL;
+    sqlite3_file *journal = NULL;
     int number = sqlite3_system_errno(file);
     if (!number && file) { /* without memory there is no connection */
         sqlite3_file_control(file, NULL, SQLITE_FCNTL_LAST_ERRNO, &number);
     }
-    if (!number && file && sqlite3_file_control(file, NULL, SQLITE_FCNTL_JOURNAL_POINTER, &log) == SQLITE_OK && log &&
-        log->pMethods && log->pMethods->xFileControl) { /* a journal in memory has none */
-        log->pMethods->xFileControl(log, SQLITE_FCNTL_LAST_ERRNO, &number);
+    if (!number && file && sqlite3_file_control(file, NULL, SQLITE_FCNTL_JOURNAL_POINTER, &journal) == SQLITE_OK &&
+        journal && journal->pMethods && journal->pMethods->xFileControl) { /* one in memory has none */
+        journal->pMethods->xFileControl(journal, SQLITE_FCNTL_LAST_ERRNO, &number);
     }
     return number;
 }
@@ -79,8 +52,12 @@ static koksma_status fail(koksma__database *database)
     const int code = sqlite3_errcode(database->file), system = system_error(database->file);
     switch (code) {
     case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-        return fail_busy(database);
+    case SQLITE_LOCKED: /* a reader is kept out by runs only, and a run by other runs and by readers */
+        return koksma__fail(KOKSMA_IO,
+                            database->writes ? "%s: another run, or an export, report or audit, is using it"
+                                             : "%s: another run is using it",
+                            path);
+    case SQLITE_ERROR: /* of a statement about a table that has other columns */
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
         return koksma__fail(KOKSMA_MALFORMED, "%s: %s; move it away to begin anew", path, reason);
@@ -102,160 +79,20 @@ static koksma_status fail(koksma__database *database)
     return koksma__fail(KOKSMA_IO, "%s: %s", path, of_system ? strerror(system) : reason);
 }
 
-/* ---- Looking at a file before SQLite opens it ----------------------------------------------------------- */
-
-static void close_file(held_file *held)
-{
-    if (held) {
-        if (held->file.pMethods) {
-            held->file.pMethods->xClose(&held->file);
-        }
-        sqlite3_free_filename(held->name);
-        sqlite3_free(held);
-    }
-}
-
-/* Opens a file through SQLite's own VFS, which knows the other descriptors of this process: under POSIX, closing
-   a second descriptor of a file would release the locks of the first. */
-static koksma_status open_file(const char *path, held_file **out)
-{
-    sqlite3_vfs *vfs = sqlite3_vfs_find(NULL);
-    int flags = SQLITE_OPEN_READONLY | SQLITE_OPEN_MAIN_DB;
-    const size_t size = offsetof(held_file, file) + (size_t)vfs->szOsFile;
-    held_file *held = sqlite3_malloc64(size);
-    *out = NULL;
-    if (!held) {
-        return koksma__fail_memory(size);
-    }
-    memset(held, 0, size);
-    held->name = (char *)sqlite3_create_filename(path, "", "", 0, NULL);
-    if (!held->name) {
-        close_file(held);
-        return koksma__fail_memory(size);
-    }
-    errno = 0;
-    const int code = vfs->xOpen(vfs, held->name, &held->file, flags, &flags);
-    const int reason = errno;
-    if (code != SQLITE_OK) {
-        close_file(held);
-        return koksma__fail(KOKSMA_IO, "%s: can't be read: %s", path, strerror(reason ? reason : EIO));
-    }
-    *out = held;
-    return KOKSMA_OK;
-}
-
-/* Finds whether a file exists and its size. Fails if it is not a regular file, because reading a pipe might not
-   end. */
-static koksma_status look_at(const char *path, bool follow_link, bool *exists, long long *size)
+/* A run needs no file yet. What is no regular file is not opened, because reading a pipe might not end. */
+static koksma_status check_file(const char *path, bool writes)
 {
     struct stat info;
-    *exists = !(follow_link ? stat(path, &info) : lstat(path, &info));
-    *size = *exists ? (long long)info.st_size : 0;
-    KOKSMA__FAIL_IF(!*exists && errno == ENOTDIR, KOKSMA_MISSING,
+    const bool exists = !stat(path, &info);
+    KOKSMA__FAIL_IF(!exists && !writes && errno == ENOTDIR, KOKSMA_MISSING,
                     "%s: %s; a study is the folder that 'koksma study run' makes", path, strerror(errno));
-    KOKSMA__FAIL_IF(!*exists && errno != ENOENT, KOKSMA_IO, "%s: %s", path, strerror(errno));
-    return *exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: not a regular file", path)
-                                             : KOKSMA_OK;
+    KOKSMA__FAIL_IF(!exists && errno != ENOENT, KOKSMA_IO, "%s: %s", path, strerror(errno));
+    KOKSMA__FAIL_IF(!exists && !writes, KOKSMA_MISSING, "%s: %s; 'koksma study run' makes it", path, strerror(errno));
+    return exists && !S_ISREG(info.st_mode) ? koksma__fail(KOKSMA_MALFORMED, "%s: not a regular file", path)
+                                            : KOKSMA_OK;
 }
 
-/* Finds the size of a file that SQLite writes beside the database, with the ending "-wal" or "-journal". It follows no link
-   there. */
-static koksma_status look_beside(const char *path, const char *ending, long long *size)
-{
-    char beside[MAX_PATH + 16];
-    bool exists;
-    strcpy(stpcpy(beside, path), ending);
-    return look_at(beside, false, &exists, size);
-}
-
-static uint32_t word_at(const unsigned char *bytes)
-{
-    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
-}
-
-koksma_status koksma__database_look(const char *path, koksma__database_header *header)
-{
-    unsigned char bytes[HEADER];
-    long long size;
-    held_file *held;
-    *header = (koksma__database_header){0};
-    koksma_status status = look_at(path, true, &header->exists, &size);
-    if (status || !header->exists) {
-        return status;
-    }
-    KOKSMA__FAIL_IF(size == 0, KOKSMA_MALFORMED, "%s: it is empty; move it away to begin anew", path);
-    /* symbolic links are resolved first, because SQLite's VFS does not follow them here */
-    char *real = realpath(path, NULL);
-    status = real ? open_file(real, &held) : koksma__fail(KOKSMA_IO, "%s: %s", path, strerror(errno));
-    free(real);
-    KOKSMA__TRY(status);
-    const int code = held->file.pMethods->xRead(&held->file, bytes, HEADER, 0);
-    close_file(held);
-    KOKSMA__FAIL_IF(code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ, KOKSMA_IO, "%s: can't be read: %s", path,
-                    strerror(EIO));
-    KOKSMA__FAIL_IF(code != SQLITE_OK || memcmp(bytes, "SQLite format 3", 16) != 0, KOKSMA_MALFORMED,
-                    "%s: file is not a database; move it away to begin anew", path);
-    header->version = word_at(bytes + 60);
-    header->application_id = word_at(bytes + 68);
-    return KOKSMA_OK;
-}
-
-/* ---- Opening ------------------------------------------------------------------------------------------- */
-
-static koksma_status lock_to_read(koksma__database *database)
-{
-    koksma_status status = open_file(database->real, &database->lock);
-    for (int waited = 0; !status; waited += LOOK_AGAIN_MS) {
-        const int code = database->lock->file.pMethods->xLock(&database->lock->file, SQLITE_LOCK_SHARED);
-        if (code == SQLITE_OK) {
-            return KOKSMA_OK;
-        }
-        if (code != SQLITE_BUSY || waited >= LAST_BREATH_MS) {
-            status = code == SQLITE_BUSY ? fail_busy(database)
-                                         : koksma__fail(KOKSMA_IO, "%s: can't be locked", database->path);
-        }
-        sqlite3_sleep(LOOK_AGAIN_MS);
-    }
-    return status;
-}
-
-/* Writes the URI "file:/a%3fb?…" of the absolute path, escaped as SQLite requires. */
-static void write_uri(koksma__database *database, const char *query)
-{
-    char *to = stpcpy(database->uri, "file:");
-    for (const char *from = database->real; *from; from++) {
-        static const char digits[] = "0123456789abcdef";
-        const unsigned char c = (unsigned char)*from;
-        if (strchr("%?#", c)) {
-            *to++ = '%';
-            *to++ = digits[c >> 4];
-            *to++ = digits[c & 15];
-        } else {
-            *to++ = *from;
-        }
-    }
-    strcpy(to, query);
-}
-
-static koksma_status prepare_to_read(koksma__database *database)
-{
-    long long log, journal;
-    koksma_status status = lock_to_read(database);
-    status = status ? status : look_beside(database->real, "-journal", &journal);
-    status = status ? status : look_beside(database->real, "-wal", &log);
-    if (!status && journal) {
-        status = koksma__fail(
-            KOKSMA_MALFORMED,
-            "%s-journal: another program left a journal of the database and must complete its work first",
-            database->path);
-    }
-    if (!status && log) {
-        write_uri(database, "?mode=ro&vfs=unix-none");
-    }
-    return status;
-}
-
-static koksma_status harden(koksma__database *database)
+static koksma_status open_file(koksma__database *database)
 {
     static const struct {
         int what, on;
@@ -263,54 +100,31 @@ static koksma_status harden(koksma__database *database)
                     {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
                     {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
                     {SQLITE_DBCONFIG_ENABLE_VIEW, 0}};
+    /* A reader, too, may have to roll back what a killed run left. Where it can't write, SQLite opens to read. */
+    const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_READWRITE | (database->writes ? SQLITE_OPEN_CREATE : 0);
+    char path[4096];
+    /* SQLite might take a relative path for a URI */
+    snprintf(path, sizeof path, "%s%s", database->path[0] == '/' ? "" : "./", database->path);
+    if (sqlite3_open_v2(path, &database->file, flags, NULL) != SQLITE_OK) {
+        return fail(database);
+    }
+    sqlite3_busy_timeout(database->file, LAST_BREATH_MS);
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         sqlite3_db_config(database->file, settings[i].what, settings[i].on, NULL);
     }
-    return koksma__database_execute(database, "PRAGMA cell_size_check=ON");
+    return koksma__database_execute(database, "PRAGMA cell_size_check=ON; PRAGMA cache_size=-32768; "
+                                              "PRAGMA page_size=16384");
 }
 
-static koksma_status open_as(koksma__database *database, koksma__database_mode mode)
+koksma_status koksma__database_open(const char *path, bool writes, koksma__database **out)
 {
-    static const char *const settings[] = {
-        [KOKSMA__DATABASE_READ] = "PRAGMA locking_mode=EXCLUSIVE; PRAGMA cache_size=-32768",
-        [KOKSMA__DATABASE_WRITE] = ("PRAGMA locking_mode=EXCLUSIVE; PRAGMA journal_mode=WAL; PRAGMA "
-                                    "synchronous=FULL; PRAGMA cache_size=-32768"),
-        [KOKSMA__DATABASE_BUILD] = "PRAGMA page_size=16384; PRAGMA journal_mode=MEMORY; PRAGMA synchronous=FULL"};
-    const bool read = mode == KOKSMA__DATABASE_READ;
-    const char *path = read ? database->uri : database->real;
-    const int flags = SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_URI | (read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE);
-    write_uri(database, "?mode=ro&immutable=1");
-    koksma_status status = read ? prepare_to_read(database) : KOKSMA_OK;
-    if (!status && sqlite3_open_v2(path, &database->file, flags, NULL) != SQLITE_OK) {
-        return fail(database);
-    }
-    if (!status) {
-        sqlite3_busy_timeout(database->file, LAST_BREATH_MS);
-        sqlite3_db_config(database->file, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, mode != KOKSMA__DATABASE_WRITE, NULL);
-        status = harden(database);
-    }
-    return status ? status : koksma__database_execute(database, settings[mode]);
-}
-
-koksma_status koksma__database_open(const char *path, const char *shown, koksma__database_mode mode,
-                                    koksma__database **out)
-{
-    koksma__database *database = calloc(1, sizeof *database);
-    char *whole = NULL;
-    koksma_status status = KOKSMA_OK;
     *out = NULL;
-    if (!database || !(database->path = strdup(shown))) {
-        status = koksma__fail_memory(sizeof *database);
-    } else if (!(whole = realpath(path, NULL))) {
-        status = koksma__fail(errno == ENOENT ? KOKSMA_MISSING : KOKSMA_IO, "%s: %s", shown, strerror(errno));
-    } else if (strlen(whole) >= MAX_PATH) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "%s: the path is too long", shown);
-    }
-    if (!status) {
-        strcpy(database->real, whole);
-        status = open_as(database, mode);
-    }
-    free(whole);
+    KOKSMA__TRY(check_file(path, writes));
+    koksma__database *database = calloc(1, sizeof *database);
+    KOKSMA__REQUIRE_MEMORY(database, sizeof *database);
+    database->writes = writes;
+    database->path = strdup(path);
+    const koksma_status status = database->path ? open_file(database) : koksma__fail_memory(strlen(path));
     if (status) {
         koksma__database_close(database);
         return status;
@@ -323,17 +137,9 @@ void koksma__database_close(koksma__database *database)
 {
     if (database) {
         sqlite3_close(database->file);
-        close_file(database->lock);
         free(database->path);
         free(database);
     }
-}
-
-bool koksma__database_has_moved(koksma__database *database)
-{
-    int moved = 0;
-    sqlite3_file_control(database->file, NULL, SQLITE_FCNTL_HAS_MOVED, &moved);
-    return moved;
 }
 
 const char *koksma__database_path(const koksma__database *database)

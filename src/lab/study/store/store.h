@@ -108,7 +108,7 @@ koksma_status koksma__store_put_run(koksma__store *store, const koksma__run_reco
 /* Reads run number i, in the order in which runs ended; *found is false if there are no more. */
 koksma_status koksma__store_run(koksma__store *store, long long i, koksma__run_record *record, bool *found);
 
-/* ---- Failed jobs (store_failed.c) ---------------------------------------------------------------------------- */
+/* ---- Failed jobs (store.c) ---------------------------------------------------------------------------- */
 
 /* The failed jobs of a task. label: all that tells it from others but n. */
 typedef struct koksma__failed {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The internal interface of the store. store_open.c creates and opens it, and checks its tables; store_series.c finds ids
-   of series, store_rows.c writes results, store_results.c reads them; store.c has locks, transactions, texts, references
-   and runs. */
+/* The internal interface of the store: database.c has SQLite, store_rows.c the series and their rows, store.c
+   all other tables. */
 #ifndef KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 #define KOKSMA_STUDY_STORE_STORE_INTERNAL_H
 
@@ -19,31 +18,10 @@
 typedef struct koksma__database koksma__database;
 typedef struct sqlite3_stmt koksma__statement;
 
-/* Facts about a file from its first 100 bytes, read before SQLite opens it. */
-typedef struct koksma__database_header {
-    bool exists;
-    uint32_t application_id, version; /* values of PRAGMA application_id and user_version */
-} koksma__database_header;
-
-/* Reads the header of a file. Errors: MALFORMED (no database, or not a regular file), IO (can't be read). */
-koksma_status koksma__database_look(const char *path, koksma__database_header *header);
-
-typedef enum koksma__database_mode {
-    /* reads the file and changes no byte of it or of its folder, which need not be writable; no run can begin
-       meanwhile */
-    KOKSMA__DATABASE_READ,
-    KOKSMA__DATABASE_WRITE, /* writes an existing file, with exclusive access and a write-ahead log */
-    KOKSMA__DATABASE_BUILD  /* fills an empty file that no other program knows */
-} koksma__database_mode;
-
-/* Opens the file `path`; error messages call it `shown`, the path that the user knows. */
-koksma_status koksma__database_open(const char *path, const char *shown, koksma__database_mode mode,
-                                    koksma__database **out);
+/* Opens a file, or a new one if it `writes`. */
+koksma_status koksma__database_open(const char *path, bool writes, koksma__database **out);
 /* Closes a database whose statements are closed; what was not committed is lost. */
 void koksma__database_close(koksma__database *database);
-
-/* Whether the path now leads to another file than when the database was opened. */
-bool koksma__database_has_moved(koksma__database *database);
 
 /* The path of the database, for error messages. */
 const char *koksma__database_path(const koksma__database *database);
@@ -90,7 +68,7 @@ typedef enum koksma__query {
     KOKSMA__GET_RESULTS,
     KOKSMA__GET_ROWS,
     KOKSMA__GET_SERIES,
-    KOKSMA__LAST_SERIES,
+    KOKSMA__GET_TABLES,
     KOKSMA__PUT_REFERENCE,
     KOKSMA__GET_REFERENCE,
     KOKSMA__PUT_TEXT,
@@ -135,8 +113,7 @@ struct koksma__store {
     koksma__made_by made_by;
 };
 
-/* ---- store.c: the lock must be held for all of these but koksma__store_enter
-   ----------------------------------- */
+/* ---- store.c: the lock must be held for all of these but koksma__store_enter -------------------------------------- */
 
 /* koksma__store_enter takes the lock and starts to count processor time; koksma__store_leave stops counting, releases
    the lock and returns `status`. */
@@ -150,29 +127,13 @@ void koksma__store_bind_key(koksma__store *store, const koksma__series *series, 
 /* Records the status of a statement that writes, and returns it. After a failure nothing more is written. */
 koksma_status koksma__store_wrote(koksma__store *store, koksma_status status);
 
-/* Begin a transaction unless one is open; end the open transaction if there is one. */
+/* Begin a transaction unless one is open; end the open transaction if there is one, if it has lasted
+   KOKSMA__WRITE_AFTER_S seconds (tick) or at once. */
 koksma_status koksma__store_begin(koksma__store *store);
+koksma_status koksma__store_tick(koksma__store *store);
 koksma_status koksma__store_end(koksma__store *store);
 
-/* Runs a statement that writes, within a transaction that ends once it has lasted KOKSMA__WRITE_AFTER_S seconds. */
-koksma_status koksma__store_write(koksma__store *store, koksma__query query);
-
-koksma_status koksma__store_put_text(koksma__store *store, const char *key, const char *value);
-koksma_status koksma__store_find_text(koksma__store *store, const char *key, char **value);
-
-/* ---- store_series.c ---------------------------------------------------------------------------------------------
- */
-
-/* Reads the current row of the statement GET_SERIES, a row of table series. Fails if a column has not the type that the
-   schema gives it, because a damaged file may hold anything. */
-koksma_status koksma__store_read_series(koksma__store *store, koksma__statement *s, koksma__series *key,
-                                        long long *id);
-
-/* ---- store_rows.c -----------------------------------------------------------------------------------------------
- */
-
-/* Reads the current row of a statement that returns rows of table result, and checks it likewise. */
-koksma_status koksma__store_read_row(koksma__store *store, koksma__statement *s, koksma__row *row);
+/* ---- store_rows.c ------------------------------------------------------------------------------------------------ */
 
 koksma_status koksma__store_rows_init(koksma__store *store);
 void koksma__store_rows_fini(koksma__store *store);
