@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* koksma/sampler.h gives the bits of the library's bulk generators. */
-#include <koksma/mask.h>
 #include <koksma/sampler.h>
 
 #include <string.h>
@@ -100,20 +99,6 @@ TEST_CASE(late_samples_are_the_librarys)
     koksma_points_fini(&points);
 }
 
-TEST_CASE(z_ranks_are_a_permutation)
-{
-    unsigned char seen[32 * 32] = {0};
-    const koksma_domain domain = {77};
-    for (uint32_t y = 0; y < 32; y++) {
-        for (uint32_t x = 0; x < 32; x++) {
-            const uint32_t rank = koksma_z_rank(domain, x, y, 5);
-            assert_true(rank < 32 * 32 && !seen[rank]);
-            seen[rank] = 1;
-            assert_int_equal(rank / 4, koksma_z_rank(domain, x ^ 1, y ^ 1, 5) / 4); /* a quad is consecutive */
-        }
-    }
-}
-
 TEST_CASE(permutations_are_permutations)
 {
     for (uint32_t n = 1; n < 300; n += 1 + n / 8) {
@@ -134,20 +119,6 @@ TEST_CASE(permutations_are_permutations)
                 assert_true(to[j] != to[i]);
             }
         }
-    }
-    /* and random ones: where 0 goes, and who is next to it */
-    enum { KEYS = 12000, SIZE = 6 };
-    int place[SIZE] = {0}, second[SIZE] = {0};
-    for (uint32_t key = 0; key < KEYS; key++) {
-        const koksma__words w = koksma__random(key, KOKSMA__PURPOSE_TEST, 0, 0);
-        const uint64_t k = (uint64_t)w.w[0] << 32 | w.w[1];
-        const uint32_t a = koksma_permute(0, SIZE, k), b = koksma_permute(1, SIZE, k);
-        place[a]++;
-        second[(b + SIZE - a) % SIZE]++;
-    }
-    for (int i = 0; i < SIZE; i++) {
-        assert_near(place[i], KEYS / (double)SIZE, 5 * sqrt(KEYS / (double)SIZE));
-        assert_near(second[i], i ? KEYS / (SIZE - 1.0) : 0, 8 * sqrt(KEYS / (double)SIZE));
     }
 }
 
@@ -225,18 +196,4 @@ TEST_CASE(all_arguments_serve)
         const uint32_t side = 1u << levels;
         assert_true((uint64_t)koksma_z_rank(domain, index % side, columns % side, levels) < (uint64_t)side * side);
     }
-}
-
-/* The lower half of the ranks is spread: each pixel of rank below a tenth keeps its distance. */
-TEST_CASE(masks_are_permutations)
-{
-    enum { SIZE = 16 };
-    uint32_t ranks[SIZE * SIZE];
-    unsigned char seen[SIZE * SIZE] = {0};
-    assert_ok(koksma_mask_void_and_cluster(SIZE, 3, NULL, ranks));
-    for (int i = 0; i < SIZE * SIZE; i++) {
-        assert_true(ranks[i] < SIZE * SIZE && !seen[ranks[i]]);
-        seen[ranks[i]] = 1;
-    }
-    assert_int_equal(koksma_mask_void_and_cluster(3, 3, NULL, ranks), KOKSMA_ARGUMENT);
 }

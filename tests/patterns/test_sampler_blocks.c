@@ -2,7 +2,6 @@
 /* What koksma/sampler.h promises inside a domain, for every function that draws: nets, and that all forms have the same
    numbers. test_sampler.c has that they are the library's, whose claims are tested; test_sampler_domains.c has what it
    promises between domains. */
-#include <koksma/keys.h>
 #include <koksma/sampler.h>
 
 #include "test.h"
@@ -145,14 +144,13 @@ TEST_CASE(all_forms_are_equal)
     }
 }
 
-/* The forms of white noise have the numbers of koksma_white_4d, and koksma_keys_2f those of koksma_keys_2d. */
+/* The forms of white noise have the numbers of koksma_white_4d; test_keys.c has those of keys. */
 TEST_CASE(forms_of_other_draws_are_equal)
 {
     for (uint32_t i = 0; i < 1000; i++) {
         const koksma_domain domain = koksma_domain_of_use(koksma_domain_of_pixel(7, i, 1), i);
-        const koksma_keys pixel = koksma_keys_of(7, i, 2 * i, i % 3, 64);
-        double xs[4], two[2];
-        float floats[4], two_floats[2];
+        double xs[4];
+        float floats[4];
         koksma_white_4d(domain, i, xs);
         koksma_white_4f(domain, i, floats);
         assert_true(koksma_white_1d(domain, i) == xs[0]);
@@ -160,9 +158,6 @@ TEST_CASE(forms_of_other_draws_are_equal)
         for (int k = 0; k < 4; k++) {
             assert_true(floats[k] == koksma_to_float(xs[k]));
         }
-        koksma_keys_2d(&pixel, i % 64, two);
-        koksma_keys_2f(&pixel, i % 64, two_floats);
-        assert_true(two_floats[0] == koksma_to_float(two[0]) && two_floats[1] == koksma_to_float(two[1]));
     }
 }
 

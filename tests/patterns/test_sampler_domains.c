@@ -20,7 +20,7 @@
 
 #include "test.h"
 
-enum { MOST = 4096, MOST_DIM = 4, DOMAINS = 3, SPP = 4 };
+enum { MOST = 4096, MOST_DIM = 4, DOMAINS = 3, SPP = 4, PLACES = 4096, CELLS = 16, SAMPLES = 1024 };
 
 static void sobol(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
 {
@@ -72,11 +72,8 @@ static void z(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
 
 static void white(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
 {
-    double four[4];
     (void)n;
-    koksma_white_4d(domain, i, four);
-    xs[0] = four[0];
-    xs[1] = four[3];
+    koksma_white_4d(domain, i, xs);
 }
 
 /* Sample i is part i % 4 of sample i / 4, whose domain has its parts alone. */
@@ -111,19 +108,115 @@ static void mask(koksma_domain domain, uint32_t i, uint32_t n, double *xs)
     koksma_mask_2d(&sequence, values, i, n, xs);
 }
 
+/* ---- Functions ------------------------------------------------------------------------------------------ */
+
+/* Where a sample is drawn: a use of a pixel of a frame. */
+typedef struct place {
+    uint64_t seed;
+    uint32_t x, y, use, frame;
+} place;
+
+static uint64_t image_of(const place *p)
+{
+    return koksma_seed_of_frame(p->seed, p->frame);
+}
+
+static koksma_domain domain_of(const place *p)
+{
+    return koksma_domain_of_use(koksma_domain_of_pixel(image_of(p), p->x, p->y), p->use);
+}
+
+static double of_word(uint32_t word)
+{
+    return koksma_fraction(word);
+}
+
+static void permute(const place *p, uint32_t i, double *xs)
+{
+    xs[0] = (koksma_permute(i, SAMPLES, domain_of(p).key) + 0.5) / SAMPLES;
+}
+
+static void words(const place *p, uint32_t i, double *xs)
+{
+    uint32_t w[4];
+    koksma_words(domain_of(p).key, KOKSMA_FOR_POINT, i, 0, w);
+    for (int k = 0; k < 4; k++) {
+        xs[k] = of_word(w[k]);
+    }
+}
+
+static void seed_of(const place *p, uint32_t i, double *xs)
+{
+    for (uint32_t k = 0; k < 4; k++) {
+        xs[k] = of_word(koksma_seed_of(domain_of(p).key, i + k));
+    }
+}
+
+static void seed_of_order(const place *p, uint32_t i, double *xs)
+{
+    (void)i;
+    xs[0] = of_word(koksma_seed_of_order(domain_of(p).key));
+}
+
+static void order(const place *p, uint32_t i, double *xs)
+{
+    xs[0] = of_word(koksma_order(domain_of(p).key, i));
+    xs[1] = of_word(koksma_shuffled(i, koksma_order(domain_of(p).key, 0)));
+}
+
+/* Levels 2: the rank of a pixel is one of 16, in the image of a use. */
+static void z_rank(const place *p, uint32_t i, double *xs)
+{
+    const koksma_domain image = {image_of(p)};
+    xs[0] = (koksma_z_rank(koksma_domain_of_use(image, p->use), p->x + i % 4, p->y % 4, 2) + 0.5) / CELLS;
+}
+
+static void keys_2d(const place *p, uint32_t i, double *xs)
+{
+    const koksma_keys pixel = koksma_keys_of(image_of(p), p->x, p->y, p->use, SAMPLES);
+    koksma_keys_2d(&pixel, i, xs);
+}
+
+static void keys_4d(const place *p, uint32_t i, double *xs)
+{
+    const koksma_keys pixel = koksma_keys_of_4d(image_of(p), p->x, p->y, p->use, SAMPLES);
+    koksma_keys_4d(&pixel, i, xs);
+}
+
+/* A pixel of masks of 64 x 64 that are the same in all images; its sequence is that of a use of the image. */
+static void mask_2d(const place *p, uint32_t i, double *xs)
+{
+    const koksma_domain image = {image_of(p)};
+    mask(koksma_domain_of_use(image, p->use), i, SAMPLES, xs);
+}
+
+/* Functions that draw or hash: in a domain, and at a place where they take more than its domain. `image`: adjacent pixels
+   of one image depend on each other, so the 4,096 numbers are those of one pixel in as many images. */
 static const struct {
     const char *name;
-    size_t dim;
+    size_t dim, dim_at;
     void (*draw)(koksma_domain domain, uint32_t i, uint32_t n, double *xs);
+    void (*draw_at)(const place *p, uint32_t i, double *xs);
+    bool image;
 } functions[] = {
-    {"koksma_sobol_2d", 2, sobol}, {"koksma_sobol_4d", 4, sobol4},
-    {"koksma_pmj02_2d", 2, pmj02}, {"koksma_cmj_2d", 2, cmj},
-    {"koksma_r_2d", 2, r},         {"koksma_z_rank", 2, z},
-    {"koksma_white_4d", 2, white}, {"koksma_domain_of_sample", 2, parts},
-    {"koksma_keys_2d", 2, keys},   {"koksma_mask_2d", 2, mask},
-    {"koksma_keys_4d", 4, keys4},
+    {"koksma_sobol_2d", 2, 0, sobol, NULL, false},
+    {"koksma_sobol_4d", 4, 4, sobol4, NULL, false},
+    {"koksma_pmj02_2d", 2, 2, pmj02, NULL, false},
+    {"koksma_cmj_2d", 2, 2, cmj, NULL, false},
+    {"koksma_r_2d", 2, 2, r, NULL, false},
+    {"koksma_z_rank", 2, 1, z, z_rank, true},
+    {"koksma_white_4d", 4, 4, white, NULL, false},
+    {"koksma_domain_of_sample", 2, 2, parts, NULL, false},
+    {"koksma_keys_2d", 2, 2, keys, keys_2d, true},
+    {"koksma_mask_2d", 2, 2, mask, mask_2d, true},
+    {"koksma_keys_4d", 4, 4, keys4, keys_4d, true},
+    {"koksma_permute", 0, 1, NULL, permute, false},
+    {"koksma_words", 0, 4, NULL, words, false},
+    {"koksma_seed_of", 0, 4, NULL, seed_of, false},
+    {"koksma_seed_of_order", 0, 1, NULL, seed_of_order, false},
+    {"koksma_order", 0, 2, NULL, order, false},
 };
-enum { FUNCTIONS = sizeof functions / sizeof *functions };
+enum { FUNCTIONS = sizeof functions / sizeof *functions, IN_DOMAINS = 11 };
 
 /* ---- Pairs of domains ---------------------------------------------------------------------------------- */
 
@@ -137,10 +230,10 @@ typedef struct pairing {
     double sets, samples;
 } pairing;
 
-/* At FUNCTIONS f + g: different coordinates of functions f <= g; and after all those, the same coordinate of both. */
-enum { PAIRINGS = 2 * FUNCTIONS * FUNCTIONS };
+/* At IN_DOMAINS f + g: different coordinates of functions f <= g; and after all those, the same coordinate of both. */
+enum { PAIRINGS = 2 * IN_DOMAINS * IN_DOMAINS };
 static pairing pairings[PAIRINGS];
-static double drawn[DOMAINS][FUNCTIONS][MOST_DIM][MOST];
+static double drawn[DOMAINS][IN_DOMAINS][MOST_DIM][MOST];
 
 static void forget_pairings(void)
 {
@@ -151,7 +244,7 @@ static void forget_pairings(void)
 
 static void draw(koksma_domain domain, int d, uint32_t n)
 {
-    for (size_t f = 0; f < FUNCTIONS; f++) {
+    for (size_t f = 0; f < IN_DOMAINS; f++) {
         for (uint32_t i = 0; i < n; i++) {
             double xs[MOST_DIM];
             functions[f].draw(domain, i, n, xs);
@@ -191,12 +284,12 @@ static void pair_columns(const double *us, const double *vs, uint32_t n, pairing
 /* All functions in domain a against all in domain b. */
 static void pair_domains(int a, int b, uint32_t n)
 {
-    for (size_t f = 0; f < FUNCTIONS; f++) {
-        for (size_t g = f; g < FUNCTIONS; g++) {
+    for (size_t f = 0; f < IN_DOMAINS; f++) {
+        for (size_t g = f; g < IN_DOMAINS; g++) {
             for (size_t k = 0; k < functions[f].dim * functions[g].dim; k++) {
                 const size_t ku = k / functions[g].dim, kv = k % functions[g].dim;
                 pair_columns(drawn[a][f][ku], drawn[b][g][kv], n,
-                             &pairings[(ku == kv) * FUNCTIONS * FUNCTIONS + f * FUNCTIONS + g]);
+                             &pairings[(ku == kv) * IN_DOMAINS * IN_DOMAINS + f * IN_DOMAINS + g]);
             }
         }
     }
@@ -205,7 +298,7 @@ static void pair_domains(int a, int b, uint32_t n)
 /* Whether both functions of a pairing are stratified in each domain. */
 static bool even(size_t c)
 {
-    const size_t f = c / FUNCTIONS % FUNCTIONS, g = c % FUNCTIONS;
+    const size_t f = c / IN_DOMAINS % IN_DOMAINS, g = c % IN_DOMAINS;
     return functions[f].draw != white && functions[f].draw != parts && functions[g].draw != white &&
            functions[g].draw != parts;
 }
@@ -218,7 +311,7 @@ static void assert_independent(const char *what, double n)
     static const char *const names[ERRORS] = {"(u - 1/2)(v - 1/2)", "u v", "B2(u - v)"};
     for (size_t c = 0; c < PAIRINGS; c++) {
         const pairing *p = &pairings[c];
-        const char *f = functions[c / FUNCTIONS % FUNCTIONS].name, *g = functions[c % FUNCTIONS].name;
+        const char *f = functions[c / IN_DOMAINS % IN_DOMAINS].name, *g = functions[c % IN_DOMAINS].name;
         const double error = 1 / sqrt(2 * p->sets), uv = even(c) ? 1.0 : 1.3, limits[ERRORS] = {1.3, uv, 1.3};
         for (int k = 0; k < ERRORS && p->sets > 0; k++) {
             const double rms = sqrt(p->squares[k] / p->sets);
@@ -254,7 +347,7 @@ TEST_CASE(uses_are_independent)
             const double expected = 256 * (1 - pow(255.0 / 256, n));
             if (p->sets > 0 && (!(p->cells / p->sets > expected - 1) || (n == MOST && p->fewest < 255))) {
                 fail_msg("%s and %s, N = %u: %.1f of 256 cells filled, at least %.0f",
-                         functions[k / FUNCTIONS % FUNCTIONS].name, functions[k % FUNCTIONS].name, n,
+                         functions[k / IN_DOMAINS % IN_DOMAINS].name, functions[k % IN_DOMAINS].name, n,
                          p->cells / p->sets, p->fewest);
             }
         }
@@ -340,5 +433,90 @@ TEST_CASE(domains_that_are_alike_are_independent)
             pair_domains(0, 1, N);
         }
         assert_independent(relations[r], N);
+    }
+}
+
+/* ---- Places --------------------------------------------------------------------------------------------- */
+
+/* Every function that draws or hashes, in two uses of a pixel, in adjacent pixels, in two frames and with adjacent seeds:
+   the same sample here and there is uniform in the 16 x 16 cells of each coordinate here and each there, by chi-squared
+   over 4,096 pixels or seeds. A function that forgets a part of its domain draws the same numbers twice and fills 16.
+
+   The others of these headers have no domain, make one, or are forms with the same numbers (test_sampler_blocks.c,
+   test_keys.c). Adjacent pixels of masks, keys and z_rank depend on each other by purpose: test_masks.c and test_keys.c
+   measure how their errors do. */
+
+typedef struct relation {
+    const char *name;
+    place step; /* what is added to a place */
+    bool pixels;
+} relation;
+
+/* Fails unless the cells of coordinate a here and b there are as full as independent uniform numbers make them. */
+static void assert_uniform(size_t f, const relation *r, uint32_t i, size_t a, size_t b, double here[][MOST_DIM],
+                           double there[][MOST_DIM])
+{
+    int counts[CELLS * CELLS] = {0};
+    double squared = 0;
+    for (size_t k = 0; k < PLACES; k++) {
+        counts[(size_t)(here[k][a] * CELLS) * CELLS + (size_t)(there[k][b] * CELLS)]++;
+    }
+    for (int c = 0; c < CELLS * CELLS; c++) {
+        const double expected = (double)PLACES / (CELLS * CELLS), off = counts[c] - expected;
+        squared += off * off / expected;
+    }
+    const double free = CELLS * CELLS - 1; /* degrees of freedom: the mean; the variance is twice that */
+    assert_that(fabs(squared - free) < 6 * sqrt(2 * free),
+                "%s, %s, sample %u, coordinates %zu and %zu: chi-squared is %.0f in place of %.0f", functions[f].name,
+                r->name, i, a, b, squared, free);
+}
+
+static void draw_at(size_t f, const place *p, uint32_t i, double *xs)
+{
+    if (functions[f].draw_at) {
+        functions[f].draw_at(p, i, xs);
+    } else {
+        functions[f].draw(domain_of(p), i, SAMPLES, xs);
+    }
+}
+
+static void compare(size_t f, const relation *r, uint32_t i)
+{
+    static double here[PLACES][MOST_DIM], there[PLACES][MOST_DIM];
+    for (uint32_t k = 0; k < PLACES; k++) {
+        place p = {.seed = 1, .x = k % 64, .y = k / 64};
+        if (functions[f].image) {
+            p = (place){.seed = k, .x = 3, .y = 5};
+        }
+        draw_at(f, &p, i, here[k]);
+        p.seed += r->step.seed;
+        p.x += r->step.x;
+        p.y += r->step.y;
+        p.use += r->step.use;
+        p.frame += r->step.frame;
+        draw_at(f, &p, i, there[k]);
+    }
+    for (size_t a = 0; a < functions[f].dim_at; a++) {
+        for (size_t b = 0; b < functions[f].dim_at; b++) {
+            assert_uniform(f, r, i, a, b, here, there);
+        }
+    }
+}
+
+TEST_CASE(draws_are_independent)
+{
+    static const relation relations[] = {
+        {"uses", {.use = 1}, false},     {"columns", {.x = 1}, true},   {"rows", {.y = 1}, true},
+        {"frames", {.frame = 1}, false}, {"seeds", {.seed = 1}, false},
+    };
+    static const uint32_t indices[] = {0, 3, 100, SAMPLES - 1};
+    for (size_t f = 0; f < FUNCTIONS; f++) {
+        for (size_t r = 0; r < sizeof relations / sizeof *relations; r++) {
+            for (size_t i = 0; i < sizeof indices / sizeof *indices; i++) {
+                if (!(functions[f].image && relations[r].pixels)) {
+                    compare(f, &relations[r], indices[i]);
+                }
+            }
+        }
     }
 }

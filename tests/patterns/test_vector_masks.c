@@ -182,5 +182,3 @@ TEST_CASE(the_energy_is_small)
         free(values);
     }
 }
-
-enum { FUNCTIONS = 6 };
