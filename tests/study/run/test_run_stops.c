@@ -130,7 +130,7 @@ static void stopped_phases_give_no_job(void **state)
         koksma__run_control_begin(NULL, 0, &control);
         atomic_store(&control.stop, stop);
         assert_ok(koksma__run_state_open(&phase, &of_run));
-        assert_int_equal(koksma__run_state_take(&of_run, false, &assignment), !stop);
+        assert_int_equal(koksma__run_state_take(&of_run, &assignment), !stop);
         assert_int_equal(koksma__run_state_status(&of_run), stop ? KOKSMA_INTERRUPTED : KOKSMA_OK);
         koksma__run_state_close(&of_run);
     }

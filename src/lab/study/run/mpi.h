@@ -52,14 +52,4 @@ void koksma__mpi_release(void);
 /* Sleeps for less than a second, between two polls. */
 void koksma__mpi_rest(double seconds);
 
-/* Kinds of messages, which run.h describes. */
-enum {
-    KOKSMA__TAG_REQUEST = 1,
-    KOKSMA__TAG_RESULTS,
-    KOKSMA__TAG_NEED,
-    KOKSMA__TAG_ERROR,
-    KOKSMA__TAG_ASSIGNMENTS,
-    KOKSMA__TAG_PIXELS
-};
-
 #endif

@@ -57,30 +57,12 @@ koksma_status koksma__failures_record(koksma_study *study, const koksma__failure
 
 /* ---- Work ---------------------------------------------------------------------------------------------------- */
 
-/* A queue of the numbers 0 .. n-1, each of which is taken once, and put back as done after its work. */
+/* The numbers 0 .. n-1, each of which is taken once. */
 typedef struct koksma__work_queue {
-    size_t n, left;            /* left: how many numbers have not been put back */
-    size_t next;               /* all numbers below `next` are taken */
-    size_t again;              /* where koksma__work_queue_take_lost continues its search */
-    unsigned char *out, *done; /* one bit per number: whether it is taken; whether it was put back */
+    size_t n, left;       /* left: how many numbers are not done */
+    size_t next;          /* all numbers below `next` are taken */
+    unsigned char *taken; /* one bit per number */
 } koksma__work_queue;
-
-typedef bool (*koksma__work_queue_ready)(const void *context, size_t i);
-
-koksma_status koksma__work_queue_open(size_t n, koksma__work_queue *queue);
-void koksma__work_queue_close(koksma__work_queue *queue);
-
-/* Takes the first number that is ready and not taken, among the next `reach` numbers; returns false if there is
-   none. If `ready` is NULL, every number is ready. */
-bool koksma__work_queue_take(koksma__work_queue *queue, size_t reach, koksma__work_queue_ready ready,
-                             const void *context, size_t *i);
-
-/* Takes a number again that is taken but not put back. Returns false if some number is not taken yet or all were put
-   back. */
-bool koksma__work_queue_take_lost(koksma__work_queue *queue, size_t *i);
-
-/* Puts a number back as done; returns false if the number was put back before. */
-bool koksma__work_queue_put(koksma__work_queue *queue, size_t i);
 
 /*
  * References that are being rendered, in tiles of whole rows. Memory holds only the sums of references that are being
@@ -103,7 +85,7 @@ typedef struct koksma__reference_tiles {
 /*
  * The state of a phase of a run (the discrepancies or the images of a plan): the assignments that are left, and the
  * results received. Threads of this process take assignments from it, and rank 0 of an MPI run sends batches of them
- * to the other ranks (mpi_serve.c). The koksma__run_state functions may be called by several threads.
+ * to the other ranks (mpi_work.c). The koksma__run_state functions may be called by several threads.
  */
 enum { KOKSMA__MAX_BATCH = 256 };
 
@@ -162,9 +144,8 @@ double koksma__run_state_fraction(koksma__run_state *state);
 /* Returns the first failure, as this thread's error, or OK. The work must have ended before the call. */
 koksma_status koksma__run_state_status(const koksma__run_state *state);
 
-/* Takes an assignment: tiles first, because jobs wait for them. Returns false if none is ready now. If `lost` is
-   true and all assignments are taken, takes one again whose result has not arrived. */
-bool koksma__run_state_take(koksma__run_state *state, bool lost, koksma__assignment *assignment);
+/* Takes an assignment: tiles first, because jobs wait for them. Returns false if none is ready now. */
+bool koksma__run_state_take(koksma__run_state *state, koksma__assignment *assignment);
 
 /* Takes a batch of assignments for one of `ranks` ranks and returns their number: jobs of about KOKSMA__BATCH_S
    seconds together, or a few tiles; fewer towards the end, so that no rank works long after the others. job_s:
@@ -193,52 +174,17 @@ typedef struct koksma__outcomes {
 koksma_status koksma__do_assignment(const koksma__tasks *tasks, const koksma__assignment *assignment,
                                     const koksma_run *run, koksma__outcomes *to);
 
-/* Takes outcomes; a second one of a job or tile is ignored. */
+/* Takes the outcomes of assignments. */
 void koksma__run_state_put(koksma__run_state *state, const koksma__outcomes *outcomes);
 
 /* Takes and does assignments until the phase is over or has failed. On the thread of the run's caller, asks the
-   caller's keep_going between assignments. If `redo`, also does assignments of other ranks if their results are
-   overdue. */
-void koksma__work(koksma__run_state *state, bool redo);
+   caller's keep_going between assignments. */
+void koksma__work(koksma__run_state *state);
 
 /* Runs a phase on the number of threads that its run control allows. */
 koksma_status koksma__work_threads(koksma__phase *phase);
 
-/* ---- MPI ----------------------------------------------------------------------------------------------------- */
-
-/*
- * The messages between the ranks of an MPI run (sent by mpi.h). Rank 0 holds the store: it sends tiles of
- * references and jobs in batches, one batch for each request, and does some itself on a second thread; only its
- * first thread sends and receives. The other ranks have the plan and hence the same list of jobs, so a job is
- * identified by its number. Ranks get reference images from rank 0 when they first need them, so that only the
- * plan's own files must be readable on every machine.
- *
- * Messages to rank 0:
- *     REQUEST  koksma__request: asks for the batch after the current one, so that no rank waits for an answer
- *     RESULTS  koksma__outcomes
- *     NEED     index of a reference whose pixels the rank needs
- *     ERROR    status and text of a rank that fails; all ranks then end
- * Messages from rank 0:
- *     ASSIGNMENTS  jobs or tiles to do, or the end of the phase or of the run; if empty, the rank requests again
- *     PIXELS       a reference image: koksma__image_head; its pixels follow in a second message
- */
-enum { KOKSMA__PHASES = 2 };
-
-/* Seconds after which a rank sends its results. If the rank is lost, the results of so many seconds are lost with
-   it, or of one job if that takes longer. */
-#define KOKSMA__SEND_S 0.02
-
-typedef struct koksma__request {
-    double phase;       /* 0: discrepancies, 1: images */
-    double job_s;       /* mean seconds of a job in the last batch; 0: unknown */
-    double busy_s;      /* seconds that this rank has worked in this phase so far */
-    double processor_s; /* this rank's processor time in this phase so far */
-} koksma__request;
-
-/* The first message about a reference image. */
-typedef struct koksma__image_head {
-    int width, height, channels;
-} koksma__image_head;
+/* ---- MPI (mpi_work.c) -------------------------------------------------------------------------------------------- */
 
 /* Rank 0's part of a phase: sends assignments to the other ranks, receives their results, and does some assignments
    itself. */

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The state of a phase: two queues (work_queue.c) under one lock. One holds tiles of reference images; the other
-   holds jobs, which are ready when the references that they are compared with are complete. An assignment counts as
-   taken until its result arrives. The assignment of a lost rank can be handed out again: if two results arrive, the
-   second is discarded. */
+/* The state of a phase: two queues under one lock. One holds tiles of reference images; the other holds jobs, which are
+   ready when the references that they are compared with are complete. */
 #include "study/run/run.h"
 
 #include <stdio.h>
@@ -13,6 +11,27 @@
 #include "core/clock.h"
 #include "core/parallel.h"
 #include "core/status.h"
+
+/* ---- Queues --------------------------------------------------------------------------------------------- */
+
+static koksma_status open_queue(size_t n, koksma__work_queue *queue)
+{
+    *queue = (koksma__work_queue){.n = n, .left = n, .taken = calloc(n / 8 + 1, 1)};
+    return queue->taken ? KOKSMA_OK : koksma__fail_memory(n / 8);
+}
+
+static bool is_taken(const koksma__work_queue *queue, size_t i)
+{
+    return queue->taken[i / 8] >> i % 8 & 1;
+}
+
+static void take(koksma__work_queue *queue, size_t i)
+{
+    queue->taken[i / 8] |= (unsigned char)(1u << i % 8);
+    while (queue->next < queue->n && is_taken(queue, queue->next)) {
+        queue->next++;
+    }
+}
 
 /* ---- Tiles ---------------------------------------------------------------------------------------------- */
 
@@ -190,9 +209,8 @@ koksma_status koksma__run_state_status(const koksma__run_state *state)
 
 /* ---- Handing out assignments --------------------------------------------------------------------------- */
 
-static bool job_is_ready(const void *context, size_t job)
+static bool job_is_ready(const koksma__run_state *state, size_t job)
 {
-    const koksma__run_state *state = context;
     long long trial;
     const koksma__task *task = koksma__tasks_job(state->phase->tasks, job, &trial);
     bool ready = true;
@@ -202,21 +220,29 @@ static bool job_is_ready(const void *context, size_t job)
     return ready;
 }
 
-bool koksma__run_state_take(koksma__run_state *state, bool lost, koksma__assignment *assignment)
+bool koksma__run_state_take(koksma__run_state *state, koksma__assignment *assignment)
 {
-    size_t i;
+    koksma__work_queue *tiles = &state->tile_queue, *jobs = &state->jobs;
     bool found = false;
     *assignment = (koksma__assignment){0};
     pthread_mutex_lock(&state->lock);
-    const bool failed = state->status != KOKSMA_OK;
-    if (!failed && (koksma__work_queue_take(&state->tile_queue, 1, NULL, NULL, &i) ||
-                    (lost && state->tile_queue.left && koksma__work_queue_take_lost(&state->tile_queue, &i)))) {
+    if (!state->status && tiles->next < tiles->n) {
+        const size_t i = tiles->next;
         *assignment = (koksma__assignment){.kind = KOKSMA__ASSIGN_TILE, .number = i, .tile = state->tiles.at[i]};
+        take(tiles, i);
         found = true;
-    } else if (!failed && (koksma__work_queue_take(&state->jobs, state->phase->tasks->n, job_is_ready, state, &i) ||
-                           (lost && !state->tile_queue.left && koksma__work_queue_take_lost(&state->jobs, &i)))) {
-        *assignment = (koksma__assignment){.kind = KOKSMA__ASSIGN_JOB, .number = i};
-        found = true;
+    } else if (!state->status) {
+        const size_t reach =
+            jobs->n - jobs->next < state->phase->tasks->n ? jobs->n : jobs->next + state->phase->tasks->n;
+        size_t i = jobs->next;
+        while (i < reach && (is_taken(jobs, i) || !job_is_ready(state, i))) {
+            i++;
+        }
+        found = i < reach;
+        if (found) {
+            *assignment = (koksma__assignment){.kind = KOKSMA__ASSIGN_JOB, .number = i};
+            take(jobs, i);
+        }
     }
     pthread_mutex_unlock(&state->lock);
     return found;
@@ -233,7 +259,7 @@ size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int 
     pthread_mutex_unlock(&state->lock);
     size_t batch = fit < 1 ? 1 : fit > KOKSMA__MAX_BATCH ? KOKSMA__MAX_BATCH : (size_t)fit, n = 0;
     batch = batch < share ? batch : share;
-    while (n < batch && koksma__run_state_take(state, false, &assignments[n])) {
+    while (n < batch && koksma__run_state_take(state, &assignments[n])) {
         n++;
     }
     return n;
@@ -241,28 +267,27 @@ size_t koksma__run_state_take_batch(koksma__run_state *state, double job_s, int 
 
 /* ---- Receiving results --------------------------------------------------------------------------------- */
 
-static void put_job(koksma__run_state *state, size_t job, const koksma__task *task, const koksma__result *results)
+/* Counts a job as done: its results, or the text of its failure. */
+static void put_job(koksma__run_state *state, const koksma__outcome *head, const void *payload)
 {
-    pthread_mutex_lock(&state->lock);
-    const bool is_new = koksma__work_queue_put(&state->jobs, job);
-    pthread_mutex_unlock(&state->lock);
-    const koksma_status status = is_new ? koksma__task_put(state->phase->tasks->study, task, results) : KOKSMA_OK;
-    if (status) {
-        koksma__run_state_stop(state, status, koksma_error_text());
-        return;
+    koksma__phase *phase = state->phase;
+    long long trial;
+    const bool failed = head->kind == KOKSMA__OUTCOME_FAILURE;
+    koksma_status status = KOKSMA_OK;
+    if (!failed) {
+        status =
+            koksma__task_put(phase->tasks->study, koksma__tasks_job(phase->tasks, head->number, &trial), payload);
     }
-    atomic_fetch_add(&state->phase->done, is_new);
-}
-
-static void fail_job(koksma__run_state *state, size_t job, const char *text)
-{
     pthread_mutex_lock(&state->lock);
-    const koksma_status status = koksma__work_queue_put(&state->jobs, job)
-                                     ? koksma__failures_count(state->phase->tasks, job, text, &state->phase->failures)
-                                     : KOKSMA_OK;
+    if (failed) {
+        status = koksma__failures_count(phase->tasks, head->number, payload, &phase->failures);
+    }
+    state->jobs.left--;
     pthread_mutex_unlock(&state->lock);
     if (status) {
         koksma__run_state_stop(state, status, koksma_error_text());
+    } else {
+        atomic_fetch_add(&phase->done, !failed);
     }
 }
 
@@ -274,11 +299,10 @@ static void put_tile(koksma__run_state *state, size_t i, const koksma__replicate
     const koksma__reference_tile tile = state->tiles.at[i];
     koksma_study *study = state->phase->tasks->study;
     bool complete = false;
-    koksma_status status = KOKSMA_OK;
+    koksma_status status;
     pthread_mutex_lock(&state->lock);
-    if (koksma__work_queue_put(&state->tile_queue, i)) {
-        status = add_sums(&state->tiles, &tile, sums, &complete);
-    }
+    state->tile_queue.left--;
+    status = add_sums(&state->tiles, &tile, sums, &complete);
     pthread_mutex_unlock(&state->lock);
     status = !status && complete ? koksma__replicates_finish(&state->tiles.sums[tile.reference], study,
                                                              &study->references[tile.reference])
@@ -294,16 +318,13 @@ static void put_tile(koksma__run_state *state, size_t i, const koksma__replicate
 
 static void put_one(koksma__run_state *state, const koksma__outcome *head, void *payload)
 {
-    koksma_study *study = state->phase->tasks->study;
-    long long trial;
-    if (head->kind == KOKSMA__OUTCOME_RESULTS && head->number < state->phase->tasks->n_jobs) {
-        put_job(state, head->number, koksma__tasks_job(state->phase->tasks, head->number, &trial), payload);
-    } else if (head->kind == KOKSMA__OUTCOME_FAILURE && head->number < state->phase->tasks->n_jobs) {
-        fail_job(state, head->number, payload);
+    if (head->kind != KOKSMA__OUTCOME_TILE && head->number < state->phase->tasks->n_jobs) {
+        put_job(state, head, payload);
     } else if (head->kind == KOKSMA__OUTCOME_TILE && head->number < state->tiles.n) {
         const koksma__reference_tile *tile = &state->tiles.at[head->number];
-        const size_t pixels = (size_t)study->references[tile->reference].width * (size_t)tile->rows;
-        const koksma__replicates sums = koksma__replicates_over(payload, head->size / sizeof(double), pixels);
+        const size_t width = (size_t)state->phase->tasks->study->references[tile->reference].width;
+        const koksma__replicates sums =
+            koksma__replicates_over(payload, head->size / sizeof(double), width * (size_t)tile->rows);
         put_tile(state, head->number, &sums);
     }
 }
@@ -328,7 +349,8 @@ static void count_work(koksma__run_state *state)
         long long trial;
         const koksma__task *task = koksma__tasks_job(tasks, i, &trial);
         if (koksma__task_is_done(task, trial)) {
-            koksma__work_queue_put(&state->jobs, i);
+            take(&state->jobs, i);
+            state->jobs.left--;
         } else {
             jobs += task->image ? (double)task->n * task->width * task->height : 1;
         }
@@ -353,8 +375,8 @@ koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *st
     state->ready = calloc(n_references + 1, sizeof *state->ready);
     koksma_status status = state->ready ? KOKSMA_OK : koksma__fail_memory(n_references + 1);
     status = status ? status : open_tiles(tasks, &state->tiles);
-    status = status ? status : koksma__work_queue_open(state->tiles.n, &state->tile_queue);
-    status = status ? status : koksma__work_queue_open(tasks->n_jobs, &state->jobs);
+    status = status ? status : open_queue(state->tiles.n, &state->tile_queue);
+    status = status ? status : open_queue(tasks->n_jobs, &state->jobs);
     for (size_t i = 0; i < n_references && !status; i++) {
         state->ready[i] = tasks->study->references[i].image.pixels != NULL;
     }
@@ -370,8 +392,8 @@ koksma_status koksma__run_state_open(koksma__phase *phase, koksma__run_state *st
 
 void koksma__run_state_close(koksma__run_state *state)
 {
-    koksma__work_queue_close(&state->tile_queue);
-    koksma__work_queue_close(&state->jobs);
+    free(state->tile_queue.taken);
+    free(state->jobs.taken);
     if (state->tiles.sums) {
         close_tiles(&state->tiles);
     }
@@ -383,7 +405,7 @@ void koksma__run_state_close(koksma__run_state *state)
 
 /* A worker takes an assignment of the run state, does it, and puts the result back, until nothing is left. A run
    without MPI has as many workers as threads; rank 0 of an MPI run has one worker beside the thread that serves the
-   other ranks (mpi_serve.c). A worker that finds no assignment, because the jobs wait for the last tiles of a
+   other ranks (mpi_work.c). A worker that finds no assignment, because the jobs wait for the last tiles of a
    reference, sleeps briefly. A result depends only on its job, not on the worker or the time. */
 
 static const double REST_S = 1e-4;
@@ -443,21 +465,17 @@ koksma_status koksma__do_assignment(const koksma__tasks *tasks, const koksma__as
                                                   : do_tile(tasks, assignment, run, to);
 }
 
-void koksma__work(koksma__run_state *state, bool redo)
+void koksma__work(koksma__run_state *state)
 {
     koksma__run_control *control = state->phase->control;
     const bool asks = pthread_equal(pthread_self(), control->caller);
-    double since_s = koksma__now_s(), took_s = 0;
     koksma__assignment assignment;
     koksma__outcomes outcomes = {0};
     for (;;) {
         if (asks && !koksma__keep_going(&control->run, koksma__run_state_fraction(state))) {
             koksma__run_state_stop(state, KOKSMA_INTERRUPTED, "interrupted");
         }
-        /* If this worker has been idle for much longer than its last assignment took, the batch of another rank may
-           be lost. */
-        const bool late = redo && koksma__now_s() - since_s > 1 + 20 * took_s;
-        if (koksma__run_state_take(state, late, &assignment)) {
+        if (koksma__run_state_take(state, &assignment)) {
             const double start_s = koksma__now_s();
             outcomes.size = 0;
             const koksma_status status =
@@ -467,9 +485,7 @@ void koksma__work(koksma__run_state *state, bool redo)
             } else {
                 koksma__run_state_put(state, &outcomes);
             }
-            since_s = koksma__now_s();
-            took_s = since_s - start_s;
-            atomic_fetch_add(&state->phase->busy_ns, (unsigned long long)(1e9 * took_s));
+            atomic_fetch_add(&state->phase->busy_ns, (unsigned long long)(1e9 * (koksma__now_s() - start_s)));
         } else if (koksma__run_state_is_over(state)) {
             free(outcomes.bytes);
             return;
@@ -482,7 +498,7 @@ void koksma__work(koksma__run_state *state, bool redo)
 static koksma_status work_block(void *context, size_t i)
 {
     (void)i;
-    koksma__work(context, false);
+    koksma__work(context);
     return KOKSMA_OK;
 }
 
