@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Every line of every table (the .def files): what a name, a number or a kind stands for, and that functions find it.
-   tests/lint/tables.sh looks whether the order of lines matters. */
+/* Every line of every table (the .def files): what a name, a number or a kind stands for, and that functions find it. */
 #include <string.h>
 
 #include "rendering.h"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # completion.sh PROGRAM: the completion scripts and manual pages hold what the tables say, and bash, zsh, fish and man
-# read them (those that are installed).
+# read them (those that are installed); what bash offers, the others get by the same words.
 set -u
 program=$(readlink -f "$1")
 work=$(mktemp -d)
@@ -10,7 +10,7 @@ PATH="$work:$PATH"
 failed=0
 complain() { echo "completion.sh: $1"; failed=1; }
 
-# ---- What each shell offers: its script runs beside stand-ins for the shell's own functions ----
+# ---- What bash offers: its script runs beside stand-ins for the shell's own functions ----
 # A case is a line, ^ where the cursor stands, and the words that are offered; FILES: files when none of them fits.
 cat >"$work/bash.driver" <<'END'
 source "$1"
@@ -21,24 +21,6 @@ while IFS= read -r line; do
   _koksma
   echo "$line" "${COMPREPLY[@]##*,}" ${no_files:-FILES}
 done | sed 's/ 1$//'
-END
-cat >"$work/zsh.driver" <<'END'
-compadd() { [[ $1 = -S ]] && shift 2; shift; print -rn -- " $@"; }
-_files() { print -n ' FILES'; }
-script=$1
-koksma_completes() { source $script; }
-while IFS= read -r line; do
-  words=(koksma ${=line%^}); [[ $line = *' ^' ]] && words+=('')
-  CURRENT=$#words
-  print -rn -- "$line"; koksma_completes; print
-done
-END
-cat >"$work/fish.driver" <<'END'
-source $argv[1]
-while read -l line
-  set -l words (complete -C "koksma $(string replace '^' '' -- $line)" | cut -f1 | string replace -r '^(--[a-z]*=|.*,)' '' | string replace a-file FILES)
-  echo "$line $words"
-end
 END
 mkdir "$work/empty"
 touch "$work/empty/a-file"
@@ -117,12 +99,11 @@ sort_words <"$work/cases" >"$work/wanted"
 sed 's/^\([^^]*^\).*/\1/' "$work/cases" >"$work/lines"
 for shell in bash zsh fish; do
   koksma completion $shell >"$work/script" || complain "no script for $shell"
-  command -v $shell >/dev/null || continue
-  $shell -n "$work/script" || complain "$shell can't read its script"
-  case $shell in bash) plain=--norc ;; zsh) plain=-f ;; fish) plain=--no-config ;; esac
-  (cd "$work/empty" && $shell $plain "$work/$shell.driver" "$work/script" <"$work/lines") 2>&1 | sort_words | sed -E ':a; s/(\^.*) [^ ]*[:,=]([^ :,=]+=?)( |$)/\1 \2\3/; ta' >"$work/$shell.offers"
-  diff "$work/wanted" "$work/$shell.offers" >"$work/difference" || complain "$shell offers other words (>) than wanted (<): $(cat "$work/difference")"
+  ! command -v $shell >/dev/null || $shell -n "$work/script" || complain "$shell can't read its script"
 done
+koksma completion bash >"$work/script"
+(cd "$work/empty" && bash --norc "$work/bash.driver" "$work/script" <"$work/lines") 2>&1 | sort_words | sed -E ':a; s/(\^.*) [^ ]*[:,=]([^ :,=]+=?)( |$)/\1 \2\3/; ta' >"$work/offers"
+diff "$work/wanted" "$work/offers" >"$work/difference" || complain "bash offers other words (>) than wanted (<): $(cat "$work/difference")"
 # The words of choices are the program's own.
 for option in pairing scope lights; do
   said=$(koksma render ball --$option x -o x.pfm 2>&1 | sed 's/.* it takes //; s/,//g; s/ or / /')

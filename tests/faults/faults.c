@@ -16,9 +16,10 @@
 #include <unistd.h>
 
 #include <jansson.h>
+#include <sqlite3.h>
 
 static const char *const names[N_FAULTS] = {
-    "none", "memory", "open", "read", "write", "sync", "close", "rename", "thread", "db", "db-memory",
+    "none", "memory", "open", "read", "write", "sync", "close", "rename", "thread", "db",
 };
 
 enum { MODE_ONCE, MODE_ON, MODE_END, ENDED = 99 };
@@ -77,6 +78,15 @@ WRAP(int, renameat, (int from_folder, const char *from, int folder, const char *
      FAULT_RENAME, EACCES, -1)
 WRAP(int, pthread_create, (pthread_t * thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument),
      (thread, attributes, f, argument), FAULT_THREAD, EAGAIN, EAGAIN)
+WRAP(int, sqlite3_open_v2, (const char *path, sqlite3 **database, int flags, const char *vfs),
+     (path, database, flags, vfs), FAULT_DB, EIO, SQLITE_CANTOPEN)
+WRAP(int, sqlite3_prepare_v3,
+     (sqlite3 * database, const char *sql, int size, unsigned flags, sqlite3_stmt **statement, const char **tail),
+     (database, sql, size, flags, statement, tail), FAULT_DB, ENOMEM, SQLITE_NOMEM)
+WRAP(int, sqlite3_exec,
+     (sqlite3 * database, const char *sql, int (*f)(void *, int, char **, char **), void *context, char **reason),
+     (database, sql, f, context, reason), FAULT_DB, EIO, SQLITE_IOERR)
+WRAP(int, sqlite3_step, (sqlite3_stmt * statement), (statement), FAULT_DB, ENOSPC, SQLITE_FULL)
 #undef WRAP
 
 /* jansson 2.14 writes past its buffer where it doesn't get the memory for a longer string. That buffer grows by
@@ -260,7 +270,6 @@ __attribute__((constructor)) static void begin(void)
         return;
     }
     json_set_alloc_funcs(json_memory, free);
-    fault_install_sqlite();
     stdout = above(stdout, "w");
     memset(counts, 0, sizeof counts);
     listening = true;

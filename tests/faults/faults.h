@@ -13,16 +13,15 @@
 
 typedef enum fault_kind {
     FAULT_NONE,
-    FAULT_MEMORY,    /* malloc and the like in the program and the libraries, and jansson's */
-    FAULT_OPEN,      /* open, openat, fopen, fdopen, fopencookie, memfd_create, mkdir */
-    FAULT_READ,      /* reading from a file that fopen or fdopen gave */
-    FAULT_WRITE,     /* write, or writing to standard output */
-    FAULT_SYNC,      /* fsync */
-    FAULT_CLOSE,     /* close, fclose */
-    FAULT_RENAME,    /* renameat */
-    FAULT_THREAD,    /* pthread_create */
-    FAULT_DB,        /* what SQLite asks of its files */
-    FAULT_DB_MEMORY, /* SQLite's memory */
+    FAULT_MEMORY, /* malloc and the like in the program and the libraries, and jansson's */
+    FAULT_OPEN,   /* open, openat, fopen, fdopen, fopencookie, memfd_create, mkdir */
+    FAULT_READ,   /* reading from a file that fopen or fdopen gave */
+    FAULT_WRITE,  /* write, or writing to standard output */
+    FAULT_SYNC,   /* fsync */
+    FAULT_CLOSE,  /* close, fclose */
+    FAULT_RENAME, /* renameat */
+    FAULT_THREAD, /* pthread_create */
+    FAULT_DB,     /* what is asked of SQLite */
     N_FAULTS
 } fault_kind;
 
@@ -30,8 +29,5 @@ typedef enum fault_kind {
    `half` is given: then *half is set, and the caller does half of its work before fault_end(). */
 bool fault_here(fault_kind kind, bool *half);
 _Noreturn void fault_end(void);
-
-/* faults_sqlite.c: puts SQLite's files and memory under test; before SQLite is used. */
-void fault_install_sqlite(void);
 
 #endif

@@ -22,7 +22,7 @@ import sys
 import tempfile
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
-KINDS = ["memory", "open", "read", "write", "sync", "close", "rename", "thread", "db", "db-memory"]
+KINDS = ["memory", "open", "read", "write", "sync", "close", "rename", "thread", "db"]
 MODES = {kind: ["once", "on"] for kind in KINDS} | {
     "write": ["once", "on", "end"], "sync": ["once", "end"], "rename": ["once", "end"], "db": ["once", "on", "end"]}
 SECONDS = 1800  # a run takes tenths of one; this finds those that never end, on machines under any load

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of files share: runs of the program that must end, within memory, with a code and one line."""
+"""What the tests of files and stores share: runs of the program that must end, within memory, with a code and one line."""
+import contextlib
 import os
 import resource
 import subprocess
@@ -7,6 +8,7 @@ import sys
 import tempfile
 import threading
 
+KOKSMA = os.path.abspath(sys.argv[1])
 SANITIZED = os.environ.get("KOKSMA_SANITIZED") == "1"  # tests/CMakeLists.txt: repeat little
 SECONDS = 1800  # a run takes tenths of one; this finds those that never end, on machines under any load
 MIB = 1 << 20
@@ -94,3 +96,19 @@ class Bench:
 
     def run(self, *arguments):
         return run(self.program, *arguments, cwd=self.folder, **self.how)
+
+
+def koksma(*arguments):
+    """A run of the program, as texts."""
+    return subprocess.run([KOKSMA, *arguments], capture_output=True, text=True, timeout=SECONDS, check=False)
+
+
+@contextlib.contextmanager
+def own_folder():
+    """The current folder is a new one, which is removed at the end."""
+    with tempfile.TemporaryDirectory(prefix="koksma-stores-") as folder:
+        os.chdir(folder)
+        try:
+            yield
+        finally:
+            os.chdir("/")

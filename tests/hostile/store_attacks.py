@@ -9,11 +9,11 @@ import re
 import shutil
 import sqlite3
 import subprocess
-import sys
-import tempfile
 
-SANITIZED = os.environ.get("KOKSMA_SANITIZED") == "1"
-from stores import KOKSMA, check, end, koksma  # noqa: E402
+from files import KOKSMA, SANITIZED, Checks, koksma, own_folder
+
+checks = Checks()
+check = checks.check
 
 PLAN = """{"name": "h", "title": "h",
   "discrepancies": [{"patterns": ["random", "zaremba"], "measures": ["star", "l2-star"], "n": [4, 9], "trials": 5}],
@@ -277,12 +277,11 @@ def programs():
 
 
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as work:
-        os.chdir(work)
+    with own_folder():
         with open("plan.json", "w", encoding="ascii") as file:
             file.write(PLAN)
         assert koksma("study", "run", "./plan.json", "-o", "sound", "-q").returncode == 0
         SOUND = study("export", "sound").stdout
         for attack in foreign, schema, values, rows, references, exports, programs:
             attack()
-    end()
+    checks.end()

@@ -9,7 +9,10 @@ import shutil
 import sqlite3
 import subprocess
 
-from stores import KOKSMA, check, end, koksma, own_folder
+from files import KOKSMA, Checks, koksma, own_folder
+
+checks = Checks()
+check = checks.check
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PLAN = """{"name": "h", "title": "h",
@@ -176,4 +179,4 @@ with own_folder():
     assert made.returncode == 0, made.stderr
     for part in references, values, trials, gaps, texts:
         part()
-end()
+checks.end()

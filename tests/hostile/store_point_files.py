@@ -14,7 +14,10 @@ import os
 import shutil
 import subprocess
 
-from stores import check, end, koksma, own_folder
+from files import Checks, koksma, own_folder
+
+checks = Checks()
+check = checks.check
 
 INCLUDE = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../include"))
 PLUGIN = """#include <koksma/plugin.h>
@@ -145,4 +148,4 @@ def rename_of_a_family():
 with own_folder():
     for part in change_each, change_one_use, rename_of_a_family:
         part()
-end()
+checks.end()
