@@ -16,143 +16,128 @@
 
 /* ---- build ------------------------------------------------------------------------------------------------------ */
 
-static int build(const cli_arguments *arguments)
+static int build(const cli_args *args)
 {
     cli_work work;
     koksma_atlas_summary summary;
     char program[PATH_MAX] = "";
-    const koksma_atlas_options options = {.questions = arguments->n_operands > 1 ? arguments->operands[1] : NULL,
-                                          .folder = cli_text(arguments, "output", NULL),
+    const koksma_atlas_options options = {.questions = args->n_operands > 1 ? args->operands[1] : NULL,
+                                          .folder = cli_text(args, "output", NULL),
                                           .program = program,
-                                          .quick = cli_flag(arguments, "quick")};
+                                          .quick = cli_flag(args, "quick")};
     if (!options.folder) {
-        return cli_usage_error(arguments, "--output is missing: it takes a folder");
+        return cli_error(args, "--output is missing: it takes a folder");
     }
-    if (arguments->n_operands > 2) {
-        return cli_usage_error(arguments, "build takes at most one file of questions");
+    if (args->n_operands > 2) {
+        return cli_error(args, "build takes at most one file of questions");
     }
     const ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     if (length < 0) {
-        return cli_usage_error(arguments, "this system has no /proc/self/exe, by which the program runs itself");
+        return cli_error(args, "this system has no /proc/self/exe, by which the program runs itself");
     }
     program[length] = '\0';
-    if (!cli_work_begin(arguments, "building", &work)) {
+    if (!cli_work_begin(args, "building", &work)) {
         return CLI_USAGE;
     }
     const koksma_status status = koksma_atlas_build(&options, &work.run, &summary);
     cli_work_end();
     if (status) {
-        return cli_fail(arguments, status);
+        return cli_fail(args, status);
     }
     if (koksma_study_mpi_rank()) {
         return CLI_YES;
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    cli_row_text(rows, "folder", options.folder);
-    cli_row_whole(rows, "pages", summary.pages);
-    cli_row_whole(rows, "computed", summary.computed);
-    cli_row_whole(rows, "kept", summary.kept);
-    cli_row_whole(rows, "without_datasheet", summary.failed);
-    cli_row_end(rows);
-    return cli_rows_close(rows, CLI_YES);
+    cli_row("folder %s pages %zu computed %zu kept %zu without_datasheet %zu\n", options.folder, summary.pages,
+            summary.computed, summary.kept, summary.failed);
+    return cli_rows_close(CLI_YES);
 }
 
 /* ---- submit and check ------------------------------------------------------------------------------------------- */
 
-static int submit(const cli_arguments *arguments)
+static int submit(const cli_args *args)
 {
     cli_work work;
     koksma_spec measure;
     koksma_points points = {0};
     char *json = NULL;
-    const char *author = cli_text(arguments, "author", ""), *output = cli_text(arguments, "output", "-");
-    if (arguments->n_operands != 2 || !*author) {
-        return cli_usage_error(arguments, *author ? "submit takes one set of points, a file or SPEC@N"
-                                                  : "--author is missing: whom the table of records names");
+    const char *author = cli_text(args, "author", ""), *output = cli_text(args, "output", "-");
+    if (args->n_operands != 2 || !*author) {
+        return cli_error(args, *author ? "submit takes one set of points, a file or SPEC@N"
+                                       : "--author is missing: whom the table of records names");
     }
     const char *slash = strrchr(output, '/'), *ending = strrchr(slash ? slash : output, '.');
     if (ending && strcmp(ending, ".json") != 0) {
-        return cli_usage_error(arguments, "%s: an entry's name ends in .json", output);
+        return cli_error(args, "%s: an entry's name ends in .json", output);
     }
-    if (koksma_measure_spec(cli_text(arguments, "measure", "star"), &measure)) {
-        return cli_fail(arguments, KOKSMA_ARGUMENT);
+    if (koksma_measure_spec(cli_text(args, "measure", "star"), &measure)) {
+        return cli_fail(args, KOKSMA_ARGUMENT);
     }
-    if (!cli_work_begin(arguments, "measuring", &work)) {
+    if (!cli_work_begin(args, "measuring", &work)) {
         return CLI_USAGE;
     }
-    int code = cli_try_output(arguments, output);
-    code = code ? code : cli_source_points(arguments, arguments->operands[1], 0, &work.run, &points);
+    int code = cli_try_output(args, output);
+    code = code ? code : cli_source_points(args, args->operands[1], 0, &work.run, &points);
     if (!code) {
         koksma_status status = koksma_entry_text(&points, &measure, author, &work.run, &json);
         cli_work_end();
         status = status ? status : koksma_plot_write(output, (const unsigned char *)json, strlen(json));
-        code = status ? cli_fail(arguments, status) : CLI_YES;
+        code = status ? cli_fail(args, status) : CLI_YES;
     }
     free(json);
     koksma_points_fini(&points);
     return code;
 }
 
-static int check(const cli_arguments *arguments)
+static int check(const cli_args *args)
 {
     cli_work work;
-    const size_t n = (size_t)arguments->n_operands - 1;
+    const size_t n = (size_t)args->n_operands - 1;
     if (!n) {
-        return cli_usage_error(arguments, "check takes entries, files that 'koksma atlas submit' wrote");
+        return cli_error(args, "check takes entries, files that 'koksma atlas submit' wrote");
     }
     koksma_entry_result *results = calloc(n, sizeof *results);
     if (!results) {
         return cli_no_memory();
     }
-    if (!cli_work_begin(arguments, "checking", &work)) {
+    if (!cli_work_begin(args, "checking", &work)) {
         free(results);
         return CLI_USAGE;
     }
-    const char **paths = (const char **)arguments->operands + 1;
+    const char **paths = (const char **)args->operands + 1;
     const koksma_status status = koksma_entries_check(paths, n, &work.run, results);
     cli_work_end();
     int code = CLI_YES;
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < n && results[i].verdict; i++) {
         const koksma_entry_result *r = &results[i];
         const int one = r->status                         ? koksma_status_exit_code(r->status)
                         : !strcmp(r->verdict, "accepted") ? CLI_YES
                                                           : CLI_NO;
         code = one > code ? one : code;
-        r->status ? cli_say(arguments->command->name, "%s", r->reason) : (void)0;
-        cli_row_text(rows, "entry", paths[i]);
-        cli_row_text(rows, "verdict", r->verdict);
-        cli_row_text(rows, "measure", *r->measure ? r->measure : "-");
-        cli_row_whole(rows, "n", r->n);
-        cli_row_whole(rows, "dim", (uint64_t)r->dim);
-        cli_row_number(rows, "claimed", r->claimed);
-        cli_row_number(rows, "value", r->value);
-        cli_row_number(rows, "record", r->record);
-        cli_row_text(rows, "reason", *r->reason ? r->reason : "-");
-        cli_row_end(rows);
+        r->status ? cli_say(args->command->name, "%s", r->reason) : (void)0;
+        cli_row("entry %s verdict %s measure %s n %zu dim %d claimed %g value %g record %g "
+                "reason %s\n",
+                paths[i], r->verdict, *r->measure ? r->measure : "-", r->n, r->dim, r->claimed, r->value, r->record,
+                *r->reason ? r->reason : "-");
     }
     free(results);
-    return cli_rows_close(rows, status ? cli_fail(arguments, status) : code);
+    return cli_rows_close(status ? cli_fail(args, status) : code);
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     static const struct {
         const char *name, *refused;
-        int (*run)(const cli_arguments *arguments);
+        int (*run)(const cli_args *args);
     } verbs[] = {{"build", "measure author", build},
                  {"submit", "quick json", submit},
                  {"check", "output quick measure author", check}};
-    for (size_t i = 0; arguments->n_operands && i < sizeof verbs / sizeof *verbs; i++) {
-        if (!strcmp(arguments->operands[0], verbs[i].name)) {
-            return cli_refuse(arguments, verbs[i].refused, "is not for %s", verbs[i].name) ? verbs[i].run(arguments)
-                                                                                           : CLI_USAGE;
+    for (size_t i = 0; args->n_operands && i < sizeof verbs / sizeof *verbs; i++) {
+        if (!strcmp(args->operands[0], verbs[i].name)) {
+            return cli_refuse(args, verbs[i].refused, "is not for %s", verbs[i].name) ? verbs[i].run(args)
+                                                                                      : CLI_USAGE;
         }
     }
-    char meant[96] = "";
-    return cli_usage_error(
-        arguments, "%sit takes build, submit or check",
-        arguments->n_operands ? cli_meant_of(arguments->operands[0], "build, submit or check", meant) : "");
+    return cli_takes(args, "", args->n_operands ? args->operands[0] : NULL, "build, submit or check");
 }
 
 static const cli_option options[] = {

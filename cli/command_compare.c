@@ -30,7 +30,6 @@ typedef struct comparison {
     bool json;
     int n;           /* number of images on the command line */
     float low, high; /* the range of the values of the images and the reference, and 0 */
-    cli_rows *rows;
 } comparison;
 
 /* Adds the columns of the metrics. The first metric is rmse, which put_row prints already. JSON rows also have the
@@ -46,13 +45,13 @@ static void put_metrics(const comparison *c, const errors *e, const char *image)
         const koksma_metric_value mean = {sum->value / images, sum->robust / images, sum->top_share / images,
                                           sum->top, sum->caveat};
         if (i) {
-            cli_row_number(c->rows, name, mean.value);
+            cli_row_number(name, mean.value);
         }
         if (c->json) {
             snprintf(text, sizeof text, "%s_robust", name);
-            cli_row_number(c->rows, text, mean.robust);
+            cli_row_number(text, mean.robust);
             snprintf(text, sizeof text, "%s_top_share", name);
-            cli_row_number(c->rows, text, mean.top_share);
+            cli_row_number(text, mean.top_share);
         }
         if (e == &c->all) { /* once for all images */
             cli_warn_of_value("compare", c->n > 1 ? "mean of the images" : image, name, &mean);
@@ -66,33 +65,27 @@ static void put_row(const comparison *c, const errors *e, const char *image)
     const double images = (double)e->images;
     koksma_coherence_values values;
     koksma_coherence_find(&e->coherence, &values);
-    cli_row_text(c->rows, "image", image);
+    cli_row("image %s", image);
     if (c->json) {
-        cli_row_text(c->rows, "reference", c->reference_path);
+        cli_row("reference %s", c->reference_path);
     }
-    cli_row_number(c->rows, "mean", e->error.mean / images);
-    cli_row_number(c->rows, "sd", e->error.sd / images);
-    cli_row_number(c->rows, "max", e->error.max / images);
-    cli_row_number(c->rows, "rmse", e->error.rmse / images);
+    cli_row("mean %g sd %g max %g rmse %g", e->error.mean / images, e->error.sd / images, e->error.max / images,
+            e->error.rmse / images);
     put_metrics(c, e, image);
-    cli_row_number(c->rows, "coherence", values.coherence);
+    cli_row("coherence %g", values.coherence);
     if (c->json) {
-        cli_row_number(c->rows, "coherence_low", values.low);
-        cli_row_number(c->rows, "coherence_high", values.high);
-        cli_row_number(c->rows, "noise_low", values.noise_low);
+        cli_row("coherence_low %g coherence_high %g noise_low %g", values.low, values.high, values.noise_low);
     }
-    cli_row_number(c->rows, "noise_high", values.noise_high);
+    cli_row("noise_high %g", values.noise_high);
     if (c->json) {
-        cli_row_number(c->rows, "p", values.p);
-        cli_row_number(c->rows, "frequency_x", values.frequency_x);
-        cli_row_number(c->rows, "frequency_y", values.frequency_y);
-        cli_row_number(c->rows, "common", values.common);
+        cli_row("p %g frequency_x %g frequency_y %g common %g", values.p, values.frequency_x, values.frequency_y,
+                values.common);
     }
-    cli_row_flag(c->rows, "coherent", values.coherent);
+    cli_row("coherent? %d", values.coherent);
     if (c->json || c->n > 1) {
-        cli_row_whole(c->rows, "images", e->images);
+        cli_row("images %zu", e->images);
     }
-    cli_row_end(c->rows);
+    cli_row_end();
 }
 
 static koksma_status read_numbers(const char *path, koksma_image *image)
@@ -117,10 +110,10 @@ static koksma_status write_difference(const char *path, const koksma_image *imag
 
 /* Prints an error. If two images could not be compared, the message names both, because either may be the wrong
    one. */
-static int fail(const cli_arguments *arguments, const comparison *c, koksma_status status)
+static int fail(const cli_args *args, const comparison *c, koksma_status status)
 {
     if (!c->compared) {
-        return cli_fail(arguments, status);
+        return cli_fail(args, status);
     }
     cli_say("compare", "%s and %s: %s", c->compared, c->reference_path, koksma_error_text());
     return koksma_status_exit_code(status);
@@ -206,62 +199,59 @@ static koksma_status add_image(comparison *c, const char *path, const char *diff
 }
 
 /* Compares the n images of the operands. Returns the exit code. */
-static int compare_all(const cli_arguments *arguments, comparison *c, const char *output, bool check_order)
+static int compare_all(const cli_args *args, comparison *c, const char *output, bool check_order)
 {
     koksma_status status = read_numbers(c->reference_path, &c->reference);
     status = status ? status : koksma_coherence_init(&c->all.coherence, c->reference.width, c->reference.height);
-    c->rows = cli_rows_open(c->json);
     widen(c, &c->reference);
     for (int i = 0; !status && i < c->n; i++) {
-        status = add_image(c, arguments->operands[i], output, check_order && !i);
+        status = add_image(c, args->operands[i], output, check_order && !i);
     }
     if (!status) {
-        put_row(c, &c->all, c->n > 1 ? "mean" : arguments->operands[0]);
+        put_row(c, &c->all, c->n > 1 ? "mean" : args->operands[0]);
     }
-    const int code = cli_rows_close(c->rows, status ? fail(arguments, c, status) : CLI_YES);
+    const int code = cli_rows_close(status ? fail(args, c, status) : CLI_YES);
     koksma_coherence_fini(&c->all.coherence);
     koksma_image_fini(&c->reference);
     return code;
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
-    const char *output = cli_text(arguments, "output", NULL), *reference = cli_text(arguments, "reference", NULL);
-    const int operands = (int)arguments->n_operands;
+    const char *output = cli_text(args, "output", NULL), *reference = cli_text(args, "reference", NULL);
+    const int operands = (int)args->n_operands;
     comparison c = {.metrics = {.n = 1, .specs = {{.metric = koksma_metric_find("rmse")}}},
-                    .json = cli_flag(arguments, "json"),
+                    .json = cli_flag(args, "json"),
                     .n = reference ? operands : operands - 1};
     double most;
     if (c.n < 1) {
-        return cli_usage_error(arguments, reference ? "it takes one image or more beside --reference"
-                                                    : "it takes one image or more, and then the reference");
+        return cli_error(args, reference ? "it takes one image or more beside --reference"
+                                         : "it takes one image or more, and then the reference");
     }
-    c.reference_path = reference ? reference : arguments->operands[c.n];
+    c.reference_path = reference ? reference : args->operands[c.n];
     if (!reference && !output && c.n > 1 && cli_is_image(c.reference_path) && access(c.reference_path, F_OK)) {
-        return cli_usage_error(
-            arguments,
+        return cli_error(
+            args,
             "%s: there is no such image; the last one is the reference, and '-o %s' writes an image of the "
             "errors",
             c.reference_path, c.reference_path);
     }
     int n_stdin = !strcmp(c.reference_path, "-");
     for (int i = 0; i < c.n; i++) {
-        n_stdin += !strcmp(arguments->operands[i], "-");
+        n_stdin += !strcmp(args->operands[i], "-");
     }
     if (n_stdin > 1) {
-        return cli_usage_error(arguments, "-: stdin can be read only once");
+        return cli_error(args, "-: stdin can be read only once");
     }
     if (output && c.n > 1) {
-        return cli_usage_error(arguments,
-                               "--output: it draws the errors of one image, but the command line has %d images", c.n);
+        return cli_error(args, "--output: it draws the errors of one image, but the command line has %d images", c.n);
     }
-    if (!cli_real(arguments, "max-mean", INFINITY, 0, 1e300, &most) ||
-        !cli_metrics_parse(arguments, false, &c.metrics)) {
+    if (!cli_real(args, "max-mean", INFINITY, 0, 1e300, &most) || !cli_metrics_parse(args, false, &c.metrics)) {
         return CLI_USAGE;
     }
-    const int code = compare_all(arguments, &c, output, !reference);
+    const int code = compare_all(args, &c, output, !reference);
     for (int i = 0; i < c.n && !code; i++) {
-        const char *image = arguments->operands[i];
+        const char *image = args->operands[i];
         if (cli_has_eight_bits(c.reference_path) != cli_has_eight_bits(image)) {
             cli_say("compare", "%s: warning: 8 bits are rounded and clipped, and that is counted as error",
                     cli_has_eight_bits(image) ? image : c.reference_path);

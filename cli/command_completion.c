@@ -1,74 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* `koksma completion`: prints completion scripts for bash, zsh and fish. A script hands the words of the command line to
    `koksma completion words`, which prints what fits, from the option tables that parse the command line. The text of an
-   option's argument tells what to offer: alternatives with | between them, or a noun of the table `nouns` below. All
+   option's argument tells what to offer: alternatives with | between them, or a noun of cli_nouns or `files`. All
    other nouns are numbers, for which nothing is offered. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
 #include <koksma/adaptive.h>
-#include <koksma/estimate.h>
 #include <koksma/integrate.h>
-#include <koksma/study.h>
-#include <koksma/verify.h>
-#include <koksma/warp.h>
 
 #include "cli.h"
 
-/* Defines a function that returns the name of member i of one of the library's tables, or NULL past the end. */
-#define NAME_AT(table, at)                                                                                           \
-    static const char *table##_name(size_t i)                                                                        \
-    {                                                                                                                \
-        return at(i) ? at(i)->name : NULL;                                                                           \
-    }
-NAME_AT(pattern, koksma_pattern_at)
-NAME_AT(measure, koksma_measure_at)
-NAME_AT(integrand, koksma_integrand_at)
-NAME_AT(estimator, koksma_estimator_at)
-NAME_AT(interval, koksma_interval_at)
-NAME_AT(integrator, koksma_integrator_at)
-NAME_AT(filter, koksma_filter_at)
-NAME_AT(adaptive, koksma_adaptive_at)
-NAME_AT(metric, koksma_metric_at)
-NAME_AT(warp, koksma_warp_at)
-NAME_AT(property, koksma_property_at)
-#undef NAME_AT
-
-static const char *command_name(size_t i)
-{
-    return cli_command_name(NULL, i);
-}
-
-static const struct {
-    const char *noun;
-    const char *(*name_at)(size_t i); /* the names to offer, or NULL */
-    bool files;                       /* offer files, too */
-} nouns[] = {
-    {"PATTERN", pattern_name, false},
-    {"MEASURE", measure_name, false},
-    {"INTEGRAND", integrand_name, false},
-    {"ESTIMATOR", estimator_name, false},
-    {"INTERVAL", interval_name, false},
-    {"SCENE", koksma_scene_name_at, true},
-    {"INTEGRATOR", integrator_name, false},
-    {"FILTER", filter_name, false},
-    {"METHOD", adaptive_name, false},
-    {"METRIC", metric_name, false},
-    {"WARP", warp_name, false},
-    {"PROPERTY", property_name, false},
-    {"COMMAND", command_name, false},
-    {"PAPER", koksma_plan_name_at, true},
-    {"PLAN", koksma_plan_name_at, true},
-    {"FILE", NULL, true},
-    {"DIR", NULL, true},
-    {"OUT", NULL, true},
-    {"PATH", NULL, true},
-    {"PLACES", NULL, true},
-    {"IMAGE", NULL, true},
-    {"REFERENCE", NULL, true},
-    {"RENDERER", NULL, true},
-};
+/* Nouns for which files are offered, besides those of cli_nouns. */
+static const char files[] = "FILE DIR OUT PATH PLACES IMAGE REFERENCE RENDERER";
 
 /* The word at the cursor. Its first `kept` characters stay, such as "--measures=star,"; the rest is completed. */
 typedef struct cursor {
@@ -92,14 +37,13 @@ static void offer(cursor *c, const char *word, size_t length, const char *ending
 
 static void offer_noun(cursor *c, const char *text, size_t length)
 {
-    for (size_t i = 0; i < sizeof nouns / sizeof *nouns; i++) {
-        if (strlen(nouns[i].noun) == length && !strncmp(nouns[i].noun, text, length)) {
-            const char *name;
-            c->files = c->files || nouns[i].files;
-            for (size_t k = 0; nouns[i].name_at && (name = nouns[i].name_at(k)); k++) {
-                offer(c, name, strlen(name), "", NULL);
-            }
-        }
+    char noun[32];
+    const char *name;
+    const cli_noun *known = cli_noun_of(text, length);
+    snprintf(noun, sizeof noun, "%.*s", (int)length, text);
+    c->files = c->files || (known && known->files) || cli_has_word(files, noun);
+    for (size_t k = 0; known && length && (name = known->name(NULL, k)); k++) {
+        offer(c, name, strlen(name), "", NULL);
     }
 }
 
@@ -316,21 +260,20 @@ static const struct {
              "complete -c koksma -f -a '(__koksma)'\n"},
 };
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
-    if (arguments->n_operands > 0 && !strcmp(arguments->operands[0], "words")) {
-        return put_words(arguments->operands + 1, arguments->n_operands - 1);
+    if (args->n_operands > 0 && !strcmp(args->operands[0], "words")) {
+        return put_words(args->operands + 1, args->n_operands - 1);
     }
-    for (size_t i = 0; arguments->n_operands == 1 && i < sizeof shells / sizeof *shells; i++) {
-        if (!strcmp(arguments->operands[0], shells[i].name)) {
+    for (size_t i = 0; args->n_operands == 1 && i < sizeof shells / sizeof *shells; i++) {
+        if (!strcmp(args->operands[0], shells[i].name)) {
             fputs(shells[i].script, stdout);
             return CLI_YES;
         }
     }
     char meant[96] = "";
-    return cli_usage_error(
-        arguments, "%sit takes one of bash, zsh, fish, or words -- WORD..",
-        arguments->n_operands ? cli_meant_of(arguments->operands[0], "bash, zsh, fish, words", meant) : "");
+    return cli_error(args, "%sit takes one of bash, zsh, fish, or words -- WORD..",
+                     args->n_operands ? cli_meant_of(args->operands[0], "bash, zsh, fish, words", meant) : "");
 }
 
 static const cli_option options[] = {{0}};

@@ -7,7 +7,6 @@
 /* A sink that prints the rows of a curve. */
 typedef struct row_sink {
     cli_sink sink;
-    cli_rows *rows;
     const cli_curve *curve;
     const char *source;
 } row_sink;
@@ -15,42 +14,40 @@ typedef struct row_sink {
 static void put_row(cli_sink *sink, const double *values)
 {
     const row_sink *s = (row_sink *)sink;
-    cli_row_text(s->rows, "source", s->source);
-    cli_row_text(s->rows, "curve", s->curve->name);
+    cli_row("source %s curve %s", s->source, s->curve->name);
     for (int k = 0; s->curve->columns[k]; k++) {
-        cli_row_number(s->rows, s->curve->columns[k], values[k]);
+        cli_row_number(s->curve->columns[k], values[k]);
     }
-    cli_row_end(s->rows);
+    cli_row_end();
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     cli_curves c;
     char names[256];
-    const cli_curve *curve = arguments->n_operands > 1 ? cli_curve_find(CLI_PRINTED, arguments->operands[0]) : NULL;
+    const cli_curve *curve = args->n_operands > 1 ? cli_curve_find(CLI_PRINTED, args->operands[0]) : NULL;
     if (!curve) {
         cli_curve_names(CLI_PRINTED, NULL, ", ", ", ", names, sizeof names);
         char meant[96] = "";
-        return cli_usage_error(arguments, "%sit takes one of %s, and points",
-                               arguments->n_operands > 1 ? cli_meant_of(arguments->operands[0], names, meant) : "",
-                               names);
+        return cli_error(args, "%sit takes one of %s, and points",
+                         args->n_operands > 1 ? cli_meant_of(args->operands[0], names, meant) : "", names);
     }
-    if (!cli_curves_begin(arguments, curve, CLI_PRINTED, "", &c)) {
+    if (!cli_curves_begin(args, curve, CLI_PRINTED, "", &c)) {
         return CLI_USAGE;
     }
-    if (c.output && arguments->n_operands > 2) {
-        return cli_usage_error(arguments, "--output: it takes %s of one source", curve->name);
+    if (c.output && args->n_operands > 2) {
+        return cli_error(args, "--output: it takes %s of one source", curve->name);
     }
-    if (!cli_sources_check(arguments, 1, c.trials, 0)) {
+    if (!cli_sources_check(args, 1, c.trials, 0)) {
         return CLI_USAGE;
     }
-    row_sink sink = {.sink = {.row = put_row}, .rows = cli_rows_open(cli_flag(arguments, "json")), .curve = curve};
-    int code = cli_try_output(arguments, c.output);
-    for (int i = 1; i < arguments->n_operands && !code; i++) {
-        sink.source = arguments->operands[i];
+    row_sink sink = {.sink = {.row = put_row}, .curve = curve};
+    int code = cli_try_output(args, c.output);
+    for (int i = 1; i < args->n_operands && !code; i++) {
+        sink.source = args->operands[i];
         code = curve->compute(&c, sink.source, &sink.sink);
     }
-    return cli_rows_close(sink.rows, code);
+    return cli_rows_close(code);
 }
 
 static const cli_option options[] = {

@@ -22,89 +22,42 @@ typedef struct list {
     size_t n;
 } list;
 
-static const char file_prefix[] = "file:";
-
-/* Whether an item of a list is a pattern, a scene or a file. */
-static bool is_known(const char *item)
+/* Reads the list of an option, with at most `most` items. Returns false after an error. */
+static bool read_list(const cli_args *args, const char *option, size_t most, list *out)
 {
-    koksma_spec spec;
-    bool known = !koksma_pattern_spec(item, &spec) || !access(item, F_OK);
-    for (size_t i = 0; !known && koksma_scene_name_at(i); i++) {
-        known = !strcmp(koksma_scene_name_at(i), item);
-    }
-    return known;
-}
-
-/* Reads the list of an option, with at most `most` items. Returns false after an error, also where two items are the halves
-   of the name of a file. */
-static bool read_list(const cli_arguments *arguments, const char *option, size_t most, list *out)
-{
-    const char *text = cli_text(arguments, option, NULL);
+    const char *text = cli_text(args, option, NULL);
     char item[KOKSMA_MAX_SPEC];
     *out = (list){0};
     while (text && strcmp(text, "none") != 0 && cli_list_item(text, out->n, item, sizeof item)) {
         if (out->n == most) {
-            cli_usage_error(arguments, "--%s: it takes up to %zu", option, most);
-            return false;
+            return !cli_error(args, "--%s: it takes up to %zu", option, most);
         }
         snprintf(out->texts[out->n], sizeof *out->texts, "%s", item);
         out->at[out->n] = out->texts[out->n];
         out->n++;
-    }
-    for (size_t i = 1; i < out->n; i++) {
-        char joined[2 * KOKSMA_MAX_SPEC];
-        snprintf(joined, sizeof joined, "%s,%s", out->texts[i - 1], out->texts[i]);
-        const char *path = cli_spec_in(joined);
-        path += strncmp(path, file_prefix, sizeof file_prefix - 1) ? 0 : sizeof file_prefix - 1;
-        if (!access(path, F_OK) && !(is_known(out->texts[i - 1]) && is_known(out->texts[i]))) {
-            cli_usage_error(arguments, "--%s: a comma in the name of a file, '%s', ends the item; rename the file",
-                            option, path);
-            return false;
-        }
     }
     return true;
 }
 
 /* Takes pattern:SPEC as SPEC, as all commands do. Refuses SPEC@N, because a datasheet chooses the n, and points from a
    pipe, because they are read several times and commands on the page name them. Returns the exit code. */
-static int take_sampler(const cli_arguments *arguments, const char **text)
+static int take_sampler(const cli_args *args, const char **text)
 {
     struct stat info;
     *text = cli_spec_in(*text);
     const char *at = strchr(*text, '@');
     if (at && at[1] && !at[1 + strspn(at + 1, "0123456789@")] && access(*text, F_OK)) {
-        return cli_usage_error(arguments, "%s: a datasheet chooses the numbers of points; it takes %.*s", *text,
-                               (int)(at - *text), *text);
+        return cli_error(args, "%s: a datasheet chooses the numbers of points; it takes %.*s", *text,
+                         (int)(at - *text), *text);
     }
     if (!strcmp(*text, "-") || (!stat(*text, &info) && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))) {
-        cli_usage_error(arguments,
-                        "%s: points are read several times, so they must be in a file, not a pipe; write "
-                        "them to a file first",
-                        *text);
+        cli_error(args,
+                  "%s: points are read several times, so they must be in a file, not a pipe; write "
+                  "them to a file first",
+                  *text);
         return koksma_status_exit_code(KOKSMA_MALFORMED);
     }
     return CLI_YES;
-}
-
-/* Refuses an output that is a file of a sampler or a scene. Returns the exit code. */
-static int check_inputs(const cli_arguments *arguments, const koksma_datasheet_options *o, const char *output)
-{
-    const char *input = cli_reads(o->sampler, output) ? o->sampler : NULL;
-    for (size_t i = 0; i < o->n_beside; i++) {
-        input = cli_reads(o->beside[i], output) ? o->beside[i] : input;
-    }
-    for (size_t i = 0; i < o->n_scenes; i++) {
-        input = cli_reads(o->scenes[i], output) ? o->scenes[i] : input;
-    }
-    return input ? cli_usage_error(arguments, "--output %s: it would replace what is read, %s; choose another file",
-                                   output, input)
-                 : CLI_YES;
-}
-
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), n = strlen(end);
-    return length > n && !strcmp(text + length - n, end);
 }
 
 /* Writes the datasheet as an HTML page or as JSON. */
@@ -118,51 +71,50 @@ static koksma_status write_sheet(const char *output, bool is_page, const char *j
     return status;
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     cli_work work;
     list beside, scenes;
     char *json = NULL;
-    const bool to_stdout = cli_flag(arguments, "json");
-    const char *output = cli_text(arguments, "output", to_stdout ? "-" : NULL);
-    if (arguments->n_operands != 1) {
-        return cli_usage_error(arguments, "it takes one sampler: a pattern such as sobol:scramble=owen, a file of "
-                                          "points, or 'my_{n}_{seed}.npy'");
+    const bool to_stdout = cli_flag(args, "json");
+    const char *output = cli_text(args, "output", to_stdout ? "-" : NULL);
+    if (args->n_operands != 1) {
+        return cli_error(args, "it takes one sampler: a pattern such as sobol:scramble=owen, a file of "
+                               "points, or 'my_{n}_{seed}.npy'");
     }
     if (!output) {
-        return cli_usage_error(arguments, "--output is missing: it takes a file such as sheet.html");
+        return cli_error(args, "--output is missing: it takes a file such as sheet.html");
     }
-    const bool is_page = ends_with(output, ".html");
+    const char *ending = strrchr(output, '.') && strrchr(output, '.') > output ? strrchr(output, '.') : "";
+    const bool is_page = !strcmp(ending, ".html");
     if (to_stdout && strcmp(output, "-") != 0) {
-        return cli_usage_error(arguments, "--json: it prints the data, and excludes --output %s", output);
+        return cli_error(args, "--json: it prints the data, and excludes --output %s", output);
     }
-    if (!is_page && !ends_with(output, ".json") && !to_stdout) {
-        return cli_usage_error(arguments, "--output %s: a datasheet is written as .html or .json", output);
+    if (!is_page && strcmp(ending, ".json") != 0 && !to_stdout) {
+        return cli_error(args, "--output %s: a datasheet is written as .html or .json", output);
     }
-    if (!read_list(arguments, "beside", KOKSMA_MAX_BESIDE, &beside) ||
-        !read_list(arguments, "scenes", KOKSMA_MAX_SHEET_SCENES, &scenes) ||
-        !cli_work_begin(arguments, "datasheet", &work)) {
+    if (!read_list(args, "beside", KOKSMA_MAX_BESIDE, &beside) ||
+        !read_list(args, "scenes", KOKSMA_MAX_SHEET_SCENES, &scenes) || !cli_work_begin(args, "datasheet", &work)) {
         return CLI_USAGE;
     }
-    const char *sampler = arguments->operands[0];
-    int code = take_sampler(arguments, &sampler);
+    const char *sampler = args->operands[0];
+    int code = take_sampler(args, &sampler);
     for (size_t i = 0; !code && i < beside.n; i++) {
-        code = take_sampler(arguments, &beside.at[i]);
+        code = take_sampler(args, &beside.at[i]);
     }
     if (code) {
         return code;
     }
     const koksma_datasheet_options options = {
         .sampler = sampler,
-        .beside = cli_text(arguments, "beside", NULL) ? beside.at : NULL,
+        .beside = cli_text(args, "beside", NULL) ? beside.at : NULL,
         .n_beside = beside.n,
-        .scenes = cli_text(arguments, "scenes", NULL) ? scenes.at : NULL,
+        .scenes = cli_text(args, "scenes", NULL) ? scenes.at : NULL,
         .n_scenes = scenes.n,
-        .metric = cli_text(arguments, "metric", NULL),
-        .quick = cli_flag(arguments, "quick"),
+        .metric = cli_text(args, "metric", NULL),
+        .quick = cli_flag(args, "quick"),
     };
-    code = check_inputs(arguments, &options, output);
-    code = code ? code : cli_try_output(arguments, output);
+    code = cli_try_output(args, output);
     if (code) {
         return code;
     }
@@ -170,7 +122,7 @@ static int run(const cli_arguments *arguments)
     cli_work_end();
     status = status ? status : write_sheet(output, is_page, json);
     free(json);
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    return status ? cli_fail(args, status) : CLI_YES;
 }
 
 static const cli_option options[] = {

@@ -18,120 +18,97 @@
 #include "measuring.h"
 #include "source.h"
 
-/* Ends the progress line if the points follow it on the terminal. */
-static void make_way(const cli_arguments *arguments, cli_work *work)
-{
-    if (!strcmp(cli_text(arguments, "output", "-"), "-") && isatty(STDOUT_FILENO)) {
-        cli_work_hide(work);
-    }
-}
-
-/* Generates all points in memory and writes them. If points->n is 0, the pattern determines the number of points. */
-static int generate(const cli_arguments *arguments, const koksma_spec *spec, const koksma_warp *warp, uint64_t seed,
-                    cli_work *work, koksma_points *points)
+/* Generates the points and writes them. points: for all of them, whose number the pattern determines if it is 0; NULL: they
+   are written piece by piece. */
+static int write_points(const cli_args *args, const cli_source *source, const koksma_warp *warp, uint64_t first,
+                        uint64_t seed, cli_work *work, koksma_points *points)
 {
     char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
+    const char *output = cli_text(args, "output", "-");
+    const koksma_spec *spec = &source->spec;
     const koksma_run *run = &work->run;
-    koksma_status status = points->n ? koksma_generate(spec, seed, run, points)
-                                     : koksma_generate_whole(spec, seed, run, points->dim, points);
-    if (!status) {
-        koksma_spec_text(spec, text);
-        int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
-        double distance;
-        if (!warp && spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 &&
-            !koksma_smallest_distance(points, true, run, &distance)) {
-            used += snprintf(comment + used, sizeof comment - (size_t)used, "\ndistance-torus %.17g", distance);
-        }
-        if (warp) {
-            snprintf(comment + used, sizeof comment - (size_t)used, "\nwarp %s", warp->name);
-            status = points->dim == 2 ? cli_map_points(warp, points) : KOKSMA_OK;
-        }
-    }
-    if (!status) {
-        make_way(arguments, work);
-        status = (warp ? koksma_points_write_mapped : koksma_points_write)(cli_text(arguments, "output", "-"), points,
-                                                                           comment, run);
-    }
-    return status ? cli_fail(arguments, status) : CLI_YES;
-}
-
-/* Generates and writes the points piece by piece, without the whole set in memory. */
-static int stream(const cli_arguments *arguments, const cli_source *source, uint64_t first, uint64_t seed,
-                  cli_work *work)
-{
-    make_way(arguments, work);
-    char text[KOKSMA_MAX_SPEC], comment[KOKSMA_MAX_SPEC + 128];
-    koksma_spec_text(&source->spec, text);
-    const int used = snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
+    koksma_status status = KOKSMA_OK;
+    double distance;
+    koksma_spec_text(spec, text);
+    snprintf(comment, sizeof comment, "pattern %s\nseed %llu", text, (unsigned long long)seed);
     if (first) {
-        snprintf(comment + used, sizeof comment - (size_t)used, "\nfirst %llu", (unsigned long long)first);
+        CLI_APPEND(comment, sizeof comment, "\nfirst %llu", (unsigned long long)first);
     }
-    const koksma_status status = koksma_generate_write(&source->spec, seed, first, source->n, source->dim,
-                                                       cli_text(arguments, "output", "-"), comment, &work->run);
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    if (points) {
+        status = points->n ? koksma_generate(spec, seed, run, points)
+                           : koksma_generate_whole(spec, seed, run, points->dim, points);
+    }
+    if (!status && points && warp) {
+        CLI_APPEND(comment, sizeof comment, "\nwarp %s", warp->name);
+        status = points->dim == 2 ? cli_map_points(warp, points) : KOKSMA_OK;
+    } else if (!status && points && spec->pattern->claims & KOKSMA_CLAIM_BLUE && points->dim == 2 && points->n > 1 &&
+               !koksma_smallest_distance(points, true, run, &distance)) {
+        CLI_APPEND(comment, sizeof comment, "\ndistance-torus %.17g", distance);
+    }
+    if (!strcmp(output, "-") && isatty(STDOUT_FILENO)) {
+        cli_work_hide(work); /* the points follow on the terminal */
+    }
+    status = status    ? status
+             : !points ? koksma_generate_write(spec, seed, first, source->n, source->dim, output, comment, run)
+             : warp    ? koksma_points_write_mapped(output, points, comment, run)
+                       : koksma_points_write(output, points, comment, run);
+    cli_work_end();
+    return status ? cli_fail(args, status) : CLI_YES;
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     cli_source source;
     koksma_points points;
     cli_work work;
     uint64_t dim, seed, first;
-    if (arguments->n_operands != 1) {
+    if (args->n_operands != 1) {
         char known[CLI_KNOWN];
-        const char *n = cli_text(arguments, "n", "");
-        const int is_number = arguments->n_operands < 2 || !isdigit((unsigned char)*arguments->operands[0]);
+        const char *n = cli_text(args, "n", "");
+        const int is_number = args->n_operands < 2 || !isdigit((unsigned char)*args->operands[0]);
         return strchr(n, ',')
-                   ? cli_usage_error(arguments, "-n %s: it takes one number of points, without commas", n)
-                   : cli_usage_error(arguments, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2%s",
-                                     arguments->n_operands > 1
-                                         ? cli_operand_hint(arguments, arguments->operands[is_number], known)
-                                         : "");
+                   ? cli_error(args, "-n %s: it takes one number of points, without commas", n)
+                   : cli_error(args, "it takes one pattern, such as n-rooks or poisson-disk:d=0.2%s",
+                               args->n_operands > 1 ? cli_operand_hint(args, args->operands[is_number], known) : "");
     }
-    int code = cli_pattern_open(arguments, arguments->operands[0], &source);
+    int code = cli_pattern_open(args, args->operands[0], &source);
     if (code) {
         return code;
     }
     const koksma_pattern *pattern = source.spec.pattern;
     if (!source.n && !pattern->whole) {
-        return cli_usage_error(arguments, "-n N, the number of points, is missing");
+        return cli_error(args, "-n N, the number of points, is missing");
     }
-    if (!cli_whole(arguments, "first", 0, 0, KOKSMA_MAX_INDEX, &first) ||
-        !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
-        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(arguments, "generating", &work)) {
+    if (!cli_whole(args, "first", 0, 0, KOKSMA_MAX_INDEX, &first) ||
+        !cli_whole(args, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) || !cli_whole(args, "seed", 0, 0, UINT64_MAX, &seed) ||
+        !cli_work_begin(args, "generating", &work)) {
         return CLI_USAGE;
     }
-    if (cli_flag(arguments, "seed") && koksma_has_one_set(&source.spec) && !cli_flag(arguments, "quiet")) {
+    if (cli_flag(args, "seed") && koksma_has_one_set(&source.spec) && !cli_flag(args, "quiet")) {
         char text[KOKSMA_MAX_SPEC];
         koksma_spec_text(&source.spec, text);
-        cli_warn_one_set(arguments, text);
+        cli_warn_one_set(args, text);
     }
     dim = source.n ? (uint64_t)source.dim : dim;
-    const char *name = cli_text(arguments, "warp", NULL);
-    const koksma_warp *warp = name ? cli_find_warp(arguments, name) : NULL;
+    const char *name = cli_text(args, "warp", NULL);
+    const koksma_warp *warp = name ? cli_find_warp(args, name) : NULL;
     if (name && (!warp || dim != 2)) {
-        return warp ? cli_usage_error(arguments, "--warp maps points of 2 dimensions, not %d", (int)dim) : CLI_USAGE;
+        return warp ? cli_error(args, "--warp maps points of 2 dimensions, not %d", (int)dim) : CLI_USAGE;
     }
     if (first && (name || !source.n)) {
-        return cli_usage_error(arguments, "--first needs -n N and excludes --warp");
+        return cli_error(args, "--first needs -n N and excludes --warp");
     }
-    code = cli_try_output(arguments, cli_text(arguments, "output", "-"));
+    code = cli_try_output(args, cli_text(args, "output", "-"));
     if (code) {
         return code;
     }
     if (source.n && !warp && (first || koksma_has_ranges(&source.spec))) {
-        code = stream(arguments, &source, first, seed, &work);
-        cli_work_end();
-        return code;
+        return write_points(args, &source, NULL, first, seed, &work, NULL);
     }
-    const bool given = cli_text(arguments, "dim", NULL) || !pattern->operand;
+    const bool given = cli_text(args, "dim", NULL) || !pattern->operand;
     points = (koksma_points){.dim = given ? (int)dim : 0};
     const koksma_status status = source.n ? koksma_points_init(&points, source.n, source.dim) : KOKSMA_OK;
-    if (status) {
-        return cli_fail(arguments, status);
-    }
-    code = generate(arguments, &source.spec, warp, seed, &work, &points);
-    cli_work_end();
+    code = status ? cli_fail(args, status) : write_points(args, &source, warp, 0, seed, &work, &points);
     koksma_points_fini(&points);
     return code;
 }

@@ -30,19 +30,18 @@ void cli_print_overview(FILE *stream)
     }
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
-    if (arguments->n_operands > 1) {
-        return cli_usage_error(arguments,
-                               "it takes the name of one command, or nothing for an overview of all commands");
+    if (args->n_operands > 1) {
+        return cli_error(args, "it takes the name of one command, or nothing for an overview of all commands");
     }
-    if (arguments->n_operands == 0) {
+    if (args->n_operands == 0) {
         cli_print_overview(stdout);
         return CLI_YES;
     }
-    const cli_command *command = cli_command_find(arguments->operands[0]);
+    const cli_command *command = cli_command_find(args->operands[0]);
     if (!command) {
-        cli_no_command(arguments->command->name, arguments->operands[0]);
+        cli_no_command(args->command->name, args->operands[0]);
         return CLI_USAGE;
     }
     cli_print_help(command);

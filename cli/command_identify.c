@@ -7,75 +7,66 @@
 #include "cli.h"
 #include "source.h"
 
-static void put_rows(cli_rows *rows, const char *source, const koksma_points *points,
-                     const koksma_identities *identities)
+static void put_rows(const char *source, const koksma_points *points, const koksma_identities *identities)
 {
     for (size_t i = 0; i < identities->count; i++) {
         const koksma_identity *said = &identities->items[i];
-        cli_row_text(rows, "source", source);
-        cli_row_whole(rows, "n", points->n);
-        cli_row_whole(rows, "dim", (uint64_t)points->dim);
-        cli_row_text(rows, "relation", said->relation);
-        cli_row_text(rows, "what", *said->what ? said->what : "-");
-        cli_row_text(rows, "spec", *said->spec ? said->spec : "-");
-        cli_row_whole(rows, "first", said->first);
-        cli_row_whole(rows, "seed", said->seed);
-        cli_row_text(rows, "detail", said->detail);
-        cli_row_end(rows);
+        cli_row("source %s n %zu dim %d relation %s what %s spec %s first %zu seed %llu detail %s\n", source,
+                points->n, points->dim, said->relation, *said->what ? said->what : "-",
+                *said->spec ? said->spec : "-", said->first, (unsigned long long)said->seed, said->detail);
     }
 }
 
 /* Reads an operand: coordinates of files may be any numbers. Returns the exit code. */
-static int read_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
+static int read_points(const cli_args *args, const char *source, uint64_t seed, const koksma_run *run,
                        koksma_points *points)
 {
     *points = (koksma_points){0};
-    if (cli_source_is_pattern(source) || cli_flag(arguments, "scale")) {
-        return cli_source_points(arguments, source, seed, run, points);
+    if (cli_source_is_pattern(source) || cli_flag(args, "scale")) {
+        return cli_source_points(args, source, seed, run, points);
     }
     const koksma_status status = koksma_points_read_mapped(source, points);
     if (!status) {
-        cli_warn_points(arguments, source, points, NULL);
+        cli_warn_points(args, source, points, NULL);
     }
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    return status ? cli_fail(args, status) : CLI_YES;
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     uint64_t seed;
     cli_work work;
-    if (arguments->n_operands == 0) {
-        return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
+    if (args->n_operands == 0) {
+        return cli_error(args, "it takes files of points, - for stdin, or SPEC@N");
     }
-    if (!cli_sources_check(arguments, 0, 1, 0) || !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &seed) ||
-        !cli_work_begin(arguments, "identifying", &work)) {
+    if (!cli_sources_check(args, 0, 1, 0) || !cli_whole(args, "seed", 0, 0, UINT64_MAX, &seed) ||
+        !cli_work_begin(args, "identifying", &work)) {
         return CLI_USAGE;
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     bool named = true;
     int code = CLI_YES;
-    for (int i = 0; i < arguments->n_operands && !code; i++) {
+    for (int i = 0; i < args->n_operands && !code; i++) {
         koksma_points points;
         koksma_identities identities = {0};
-        const char *source = arguments->operands[i];
-        cli_work_part(&work, (size_t)i, (size_t)arguments->n_operands);
-        code = read_points(arguments, source, seed, &work.run, &points);
+        const char *source = args->operands[i];
+        cli_work_part(&work, (size_t)i, (size_t)args->n_operands);
+        code = read_points(args, source, seed, &work.run, &points);
         if (!code) {
             cli_work_unknown(&work, "identifying");
             const koksma_status status = koksma_identify(&points, &work.run, &identities);
             cli_work_end();
-            code = status ? cli_fail(arguments, status) : CLI_YES;
+            code = status ? cli_fail(args, status) : CLI_YES;
         }
         bool one = false;
         for (size_t k = 0; k < identities.count; k++) {
             one = one || koksma_identity_names(&identities.items[k]);
         }
         named = named && one;
-        put_rows(rows, source, &points, &identities);
+        put_rows(source, &points, &identities);
         koksma_identities_fini(&identities);
         koksma_points_fini(&points);
     }
-    return cli_rows_close(rows, code ? code : named ? CLI_YES : CLI_NO);
+    return cli_rows_close(code ? code : named ? CLI_YES : CLI_NO);
 }
 
 static const cli_option options[] = {

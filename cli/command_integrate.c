@@ -2,8 +2,8 @@
 /*
  * `koksma integrate`: estimates integrals of functions by means over point sets and prints the errors against n.
  * Operands are integrands, then sources of points as `koksma measure` takes them; sources of one pattern that differ in
- * their size become one series with a slope. Rows are printed in two tables: errors, slopes. cli/integrands.c opens the
- * functions, cli/estimating.c has the estimates of functions whose integral is not known.
+ * their size become one series with a slope. Rows are printed in two tables: errors, slopes. cli/estimating.c opens the
+ * functions, and has the estimates of those whose integral is not known.
  */
 #include <math.h>
 #include <stdio.h>
@@ -35,12 +35,12 @@ typedef struct slope {
 } slope;
 
 typedef struct job {
-    const cli_arguments *arguments;
+    const cli_args *args;
     cli_work work;
-    cli_rows *rows;
     uint64_t seed, trials;
     series *series;
     size_t n_series;
+    series *at;    /* the series whose errors are computed */
     size_t *sizes; /* the size of each operand that was opened */
     slope *slopes;
     size_t n_slopes;
@@ -50,47 +50,22 @@ typedef struct job {
     char biased[KOKSMA_MAX_SPEC];        /* the last pattern that was found to be biased */
 } job;
 
-/* The context of a function that cli_integrands_each calls. */
-typedef struct of_job {
-    job *j;
-    series *s;
-} of_job;
-
 /* ---- Errors ------------------------------------------------------------------------------------------------- */
 
-static void put_error(job *j, const koksma_integral_facts *facts, const series *s, const koksma_integration_row *row)
+static void put_error(const koksma_integral_facts *facts, const series *s, const koksma_integration_row *row)
 {
-    cli_row_text(j->rows, "integrand", facts->text);
-    cli_row_text(j->rows, "source", s->text);
-    cli_row_whole(j->rows, "n", row->n);
-    cli_row_whole(j->rows, "dim", (uint64_t)facts->dim);
-    cli_row_whole(j->rows, "trials", row->trials);
-    cli_row_number(j->rows, "rmse", row->rmse);
-    cli_row_number(j->rows, "low", row->low);
-    cli_row_number(j->rows, "high", row->high);
-    cli_row_flag(j->rows, "approximate", row->approximate);
-    cli_row_number(j->rows, "gain", row->gain);
-    cli_row_number(j->rows, "mean", row->mean);
-    cli_row_number(j->rows, "sd", row->sd);
-    cli_row_number(j->rows, "integral", facts->value);
-    cli_row_number(j->rows, "z", row->z);
-    cli_row_end(j->rows);
+    cli_row("integrand %s source %s n %zu dim %d trials %llu rmse %g low %g high %g "
+            "approximate? %d gain %g mean %g sd %g integral %g z %g\n",
+            facts->text, s->text, row->n, facts->dim, (unsigned long long)row->trials, row->rmse, row->low, row->high,
+            row->approximate, row->gain, row->mean, row->sd, facts->value, row->z);
 }
 
-static void put_slope(job *j, const slope *s)
+static void put_slope(const slope *s)
 {
-    cli_row_text(j->rows, "slope_of", s->integrand);
-    cli_row_text(j->rows, "source", s->source);
-    cli_row_whole(j->rows, "dim", (uint64_t)s->dim);
-    cli_row_whole(j->rows, "from_n", s->from);
-    cli_row_whole(j->rows, "to_n", s->to);
-    cli_row_whole(j->rows, "sizes", s->line.count);
-    cli_row_number(j->rows, "slope", s->line.value);
-    cli_row_number(j->rows, "standard_error", s->line.standard_error);
-    cli_row_number(j->rows, "low", s->line.low);
-    cli_row_number(j->rows, "high", s->line.high);
-    cli_row_flag(j->rows, "approximate", s->line.approximate);
-    cli_row_end(j->rows);
+    cli_row("slope_of %s source %s dim %d from_n %zu to_n %zu sizes %zu slope %g "
+            "standard_error %g low %g high %g approximate? %d\n",
+            s->integrand, s->source, s->dim, s->from, s->to, s->line.count, s->line.value, s->line.standard_error,
+            s->line.low, s->line.high, s->line.approximate);
 }
 
 static koksma_status errors_of(job *j, const koksma_integral *integral, series *s, koksma_integration *out)
@@ -105,18 +80,24 @@ static koksma_status errors_of(job *j, const koksma_integral *integral, series *
     return status ? status : koksma_integration_summary(facts.value, facts.variance, &s->options, &mean, out);
 }
 
-static int integrate(job *j, const koksma_integral *integral, series *s)
+/* Prints the errors of a series; `context` is the job. */
+static int integrate(const koksma_integral *integral, void *context)
 {
+    job *j = context;
+    series *s = j->at;
+    slope *more = realloc(j->slopes, (j->n_slopes + 1) * sizeof *more);
+    j->slopes = more ? more : j->slopes;
     koksma_integration *result = malloc(sizeof *result);
     koksma_integral_facts facts;
-    if (!result) {
+    if (!result || !more) {
+        free(result);
         return cli_no_memory();
     }
     koksma_integral_about(integral, &facts);
     const koksma_status status = errors_of(j, integral, s, result);
     const size_t last = s->options.n_sizes - 1;
     for (size_t i = 0; !status && i <= last; i++) {
-        put_error(j, &facts, s, &result->rows[i]);
+        put_error(&facts, s, &result->rows[i]);
     }
     if (!status && last >= 2) {
         slope *to = &j->slopes[j->n_slopes++];
@@ -130,9 +111,7 @@ static int integrate(job *j, const koksma_integral *integral, series *s)
     }
     if (!status && *result->bias && strcmp(j->biased, s->text) != 0) {
         snprintf(j->biased, sizeof j->biased, "%s", s->text);
-        if (!cli_flag(j->arguments, "quiet")) {
-            cli_say(j->arguments->command->name, "%s is biased, and has no gain: %s", s->text, result->bias);
-        }
+        cli_note(j->args, "%s is biased, and has no gain: %s", s->text, result->bias);
     }
     if (!status && s->source.is_pattern && j->trials > 1 && result->rows[0].trials == 1 &&
         strcmp(j->deterministic, s->text) != 0) {
@@ -140,7 +119,7 @@ static int integrate(job *j, const koksma_integral *integral, series *s)
         j->n_deterministic++;
     }
     free(result);
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
+    return status ? cli_fail(j->args, status) : CLI_YES;
 }
 
 /* ---- The command --------------------------------------------------------------------------------------------- */
@@ -163,15 +142,15 @@ static int add_size(const job *j, series *to, int i)
     bool has = false;
     for (int k = to->first; k < i; k++) {
         has |= j->sizes[k] == n;
-        if (j->sizes[k] == n && same_name(j->arguments->operands[k], j->arguments->operands[i])) {
-            return cli_usage_error(j->arguments, "%s: n = %zu is given twice", to->text, n);
+        if (j->sizes[k] == n && same_name(j->args->operands[k], j->args->operands[i])) {
+            return cli_error(j->args, "%s: n = %zu is given twice", to->text, n);
         }
     }
     if (has) {
         return CLI_YES;
     }
     if (to->options.n_sizes == KOKSMA_MAX_SIZES) {
-        return cli_usage_error(j->arguments, "%s: it takes up to %d sizes", to->text, KOKSMA_MAX_SIZES);
+        return cli_error(j->args, "%s: it takes up to %d sizes", to->text, KOKSMA_MAX_SIZES);
     }
     to->options.sizes[to->options.n_sizes++] = n;
     return CLI_YES;
@@ -181,19 +160,18 @@ static int add_size(const job *j, series *to, int i)
    series. */
 static int open_series(job *j, int i)
 {
-    const char *operand = j->arguments->operands[i];
+    const char *operand = j->args->operands[i];
     series *s = &j->series[j->n_series], *before = j->n_series ? s - 1 : NULL;
     *s = (series){.first = i, .options = {.seed = j->seed, .trials = j->trials}};
-    int code = cli_source_open(j->arguments, operand, &s->source);
+    int code = cli_source_open(j->args, operand, &s->source);
     if (code) {
         return code;
     }
-    if (s->source.is_pattern && !koksma_has_one_set(&s->source.spec) &&
-        !cli_seeds_fit(j->arguments, j->seed, j->trials)) {
+    if (s->source.is_pattern && !koksma_has_one_set(&s->source.spec) && !cli_seeds_fit(j->args, j->seed, j->trials)) {
         return CLI_USAGE;
     }
     if (!s->source.is_pattern) {
-        code = cli_source_points(j->arguments, operand, j->seed, &j->work.run, &s->points);
+        code = cli_source_points(j->args, operand, j->seed, &j->work.run, &s->points);
         s->options.trials = 1;
     }
     koksma_spec_text(&s->source.spec, s->text);
@@ -211,19 +189,10 @@ static int open_series(job *j, int i)
     return code;
 }
 
-static int errors_of_series(const koksma_integral *integral, void *context)
-{
-    job *j = ((of_job *)context)->j;
-    series *s = ((of_job *)context)->s;
-    slope *more = realloc(j->slopes, (j->n_slopes + 1) * sizeof *more);
-    j->slopes = more ? more : j->slopes;
-    return more ? integrate(j, integral, s) : cli_no_memory();
-}
-
 /* Shares the level of z among all rows of errors. */
 static void count_tests(job *j)
 {
-    const char *list = j->arguments->operands[0];
+    const char *list = j->args->operands[0];
     const bool all = !strcmp(list, "all");
     char item[KOKSMA_MAX_SPEC];
     size_t integrands = 0, rows = 0;
@@ -240,63 +209,62 @@ static void count_tests(job *j)
 
 static int run_all(job *j)
 {
-    const cli_arguments *arguments = j->arguments;
+    const cli_args *args = j->args;
     int code = CLI_YES;
-    for (int i = 1; i < arguments->n_operands && !code; i++) {
+    for (int i = 1; i < args->n_operands && !code; i++) {
         code = open_series(j, i);
     }
     count_tests(j);
-    j->rows = code ? NULL : cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < j->n_series && !code; i++) {
         cli_work_part(&j->work, i, j->n_series);
-        code = cli_integrands_each(j->arguments, j->series[i].dim, errors_of_series, &(of_job){j, &j->series[i]});
+        j->at = &j->series[i];
+        code = cli_integrands_each(args, j->at->dim, integrate, j);
     }
     for (size_t i = 0; i < j->n_slopes; i++) {
-        put_slope(j, &j->slopes[i]);
+        put_slope(&j->slopes[i]);
     }
     cli_work_end();
-    const int end = j->rows ? cli_rows_close(j->rows, code) : code;
-    if (!code && j->n_deterministic && !cli_flag(arguments, "quiet")) {
-        cli_say(arguments->command->name,
-                "%s%s is deterministic, so its error is that of a single set; add %cshift=1 for random sets",
-                j->deterministic, j->n_deterministic > 1 ? ", as others," : "",
-                strchr(j->deterministic, ':') ? ',' : ':');
+    const int end = cli_rows_close(code);
+    if (!code && j->n_deterministic) {
+        cli_note(args, "%s%s is deterministic, so its error is that of a single set; add %cshift=1 for random sets",
+                 j->deterministic, j->n_deterministic > 1 ? ", as others," : "",
+                 strchr(j->deterministic, ':') ? ',' : ':');
     }
     return end;
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
-    job j = {.arguments = arguments};
-    const bool command = cli_text(arguments, "with", NULL);
-    for (int i = !command; i < arguments->n_operands; i++) {
-        if (koksma_integrand_find(arguments->operands[i])) {
-            return cli_usage_error(arguments, "%s: %s", arguments->operands[i],
-                                   command ? "--with takes the place of an integrand"
-                                           : "the integrand comes first, several with commas between them");
+    job j = {.args = args};
+    const bool command = cli_text(args, "with", NULL);
+    for (int i = !command; i < args->n_operands; i++) {
+        if (koksma_integrand_find(args->operands[i])) {
+            return cli_error(args, "%s: %s", args->operands[i],
+                             command ? "--with takes the place of an integrand"
+                                     : "the integrand comes first, several with commas between them");
         }
     }
-    if (cli_estimates(arguments)) {
-        return cli_run_estimates(arguments);
+    if (cli_estimates(args)) {
+        return cli_run_estimates(args);
     }
-    if (arguments->n_operands == 0) {
-        return cli_usage_error(arguments, "it takes an integrand, such as disk or genz-gaussian:difficulty=5, and "
-                                          "patterns or files; 'koksma list integrands' names them");
+    if (args->n_operands == 0) {
+        return cli_error(args, "it takes an integrand, such as disk or genz-gaussian:difficulty=5, and "
+                               "patterns or files; 'koksma list integrands' names them");
     }
-    if (arguments->n_operands == 1) {
-        return cli_usage_error(
-            arguments, "it takes an integrand and points, as in disk sobol@64 or disk -p sobol,halton -n 16,64; "
-                       "'koksma list integrands' names the integrands");
+    if (args->n_operands == 1) {
+        return cli_error(args,
+                         "it takes an integrand and points, as in disk sobol@64 or disk -p sobol,halton -n 16,64; "
+                         "'koksma list integrands' names the integrands");
     }
-    if (!cli_trials(arguments, 32, MOST_TRIALS, &j.seed, &j.trials) ||
-        !cli_sources_check(arguments, 1, cli_text(arguments, "trials", NULL) ? j.trials : 1, 1) ||
-        !cli_work_begin(arguments, "integrating", &j.work)) {
+    if (!cli_trials(args, 32, MOST_TRIALS, &j.seed, &j.trials) ||
+        !cli_sources_check(args, 1, cli_text(args, "trials", NULL) ? j.trials : 1, 1) ||
+        !cli_work_begin(args, "integrating", &j.work)) {
         return CLI_USAGE;
     }
-    j.series = calloc((size_t)arguments->n_operands + 1, sizeof *j.series);
-    j.sizes = calloc((size_t)arguments->n_operands, sizeof *j.sizes);
+    j.series = calloc((size_t)args->n_operands + 1, sizeof *j.series);
+    j.sizes = calloc((size_t)args->n_operands, sizeof *j.sizes);
     const int code = j.series && j.sizes ? run_all(&j) : cli_no_memory();
-    for (size_t i = 0; j.series && i < (size_t)arguments->n_operands; i++) {
+    for (size_t i = 0; j.series && i < (size_t)args->n_operands; i++) {
         koksma_points_fini(&j.series[i].points);
     }
     free(j.series);
@@ -310,7 +278,18 @@ static const cli_option options[] = {
     {'t', "trials", "T",
      "number of sets of each random pattern, with seeds S, S+1, .. to 2^64 - 1 at most (default: 32)"},
     {'s', "seed", "S", "seed of patterns (default: 0)"},
-    CLI_ESTIMATE_OPTIONS,
+    {0, "tolerance", "ERROR", "double the points until the error is at most ERROR; exit code 1 if the limit ends it"},
+    {0, "relative", NULL, "with --tolerance: ERROR is relative to the integral"},
+    {0, "max-points", "N", "with --tolerance: limit of the points of all sets together (default: 16777216)"},
+    {0, "resume", "FILE", "with --tolerance: keep the steps in FILE, and continue those that are there"},
+    {0, "estimator", "ESTIMATOR", "print an estimate; see 'koksma list estimators' (default: the interval's)"},
+    {0, "interval", "INTERVAL", "of an estimate; see 'koksma list intervals' (default: the estimator's, or auto)"},
+    {0, "replicates", "R", "independent sets of an estimate (default: 15, or 8 parts of one set; see below)"},
+    {0, "confidence", "C", "of the interval, above 0 and below 1 (default: 0.95)"},
+    {0, "range", "LOW,HIGH", "bounds of the function's values, for intervals that need them"},
+    {0, "with", "PROGRAM",
+     "estimate the function that the shell command PROGRAM computes: points on its stdin, values on its "
+     "stdout"},
     CLI_ROW_OPTIONS,
     CLI_RUN_OPTIONS,
     {0},
@@ -327,34 +306,32 @@ const cli_command cli_command_integrate = {
         "rmse is the root mean square, over the trials, of the estimate minus the integral, with its 95 % "
         "interval. With a single set, which is all that deterministic patterns have, it is the absolute error. "
         "gain is the variance with random points divided by the mean squared error: how many times as many random "
-        "points would be needed for the same error. z is the mean minus the integral in standard errors, sd / sqrt "
-        "T. Estimates whose z is beyond what Student's t allows at the level of 4 standard deviations (6.3e-5), or "
-        "of .001 for all rows together if that is less, are biased, and have no gain; where intervals are "
-        "approximate, the mean must be off by 4 standard errors of random points, too. With 32 sets or more, "
-        "patterns that are not known to be unbiased are tested as by 'koksma verify --seeds'; a biased one has no "
-        "gain. Three sizes or more give the slope of log rmse against log n with its interval. Intervals are "
-        "marked approximate if they may hold in less than 93 % of cases: with fewer than 16 sets, and if errors "
-        "are much more skewed or heavy-tailed than normal ones, as those of options far out of the money. "
-        "Simulated intervals of rmse and slope hold in 95 to 98 % for nearly normal errors, in 76 to 99 % for "
-        "skewed or heavy-tailed ones, and in 98 to 99.9 % for uniform ones (docs/findings/integration.md).\n"
+        "points would be needed for the same error. z is the mean minus the integral in standard errors, sd / "
+        "sqrt T. Estimates whose z is beyond what Student's t allows at the level of 4 standard deviations "
+        "(6.3e-5), or of .001 for all rows together if that is less, are biased, and have no gain; where "
+        "intervals are approximate, the mean must be off by 4 standard errors of random points, too. With 32 sets "
+        "or more, patterns that are not known to be unbiased are tested as by 'koksma verify --seeds'. Three "
+        "sizes or more give the slope of log rmse against log n with its interval. Intervals are marked "
+        "approximate if they may hold in less than 93 % of cases: with fewer than 16 sets, and if errors are much "
+        "more skewed or heavy-tailed than normal ones (docs/findings/integration.md).\n"
         "\n"
         "--estimator, --interval, --replicates and --confidence print estimates that need no known integral, each "
         "from R independent sets of n points, with an interval for the integral. --interval auto takes the "
         "narrower of the median's quantile interval and the mean's by Student, each with half of the risk; only "
         "Student's where the sets differ by 0.7 of one point's share of the range of values or more, as with "
         "jumps. error is the larger distance of its ends from the estimate, points the number of function values. "
-        "Where the integral is known, off is estimate minus integral, and holds tells whether the interval has it. "
-        "--tolerance doubles n, from -n on, until the error is within the tolerance or the next step exceeds "
-        "--max-points; the pattern is by default sobol:scramble=lms,digital-shift=1. Without --estimator, --interval "
-        "and --replicates, sequences of nets in base 2 have one set of points, whose 8 consecutive parts give "
-        "Student's interval, and a ninth of another set as a check: fewest points for a tolerance "
-        "(docs/findings/coverage.md). --resume FILE keeps each step in FILE: after an interrupt or a limit the same "
-        "command continues, to the same result. The last interval "
-        "holds with the confidence whenever the search ends, if the estimates are about normal and their error "
-        "falls at least as n^-1/2; with fewer than 6 replicates, a confidence below 0.9 or a proved interval all "
-        "steps share it. rate is the slope of log error against log points over the last five steps, needed the "
-        "number of points that a tolerance out of reach would take by it, with its approximate 95 % interval. "
-        "Patterns must be unbiased over their seeds ('koksma list claims').\n"
+        "Where the integral is known, off is estimate minus integral, and holds tells whether the interval has "
+        "it. --tolerance doubles n, from -n on, until the error is within the tolerance or the next step exceeds "
+        "--max-points; the pattern is by default sobol:scramble=lms,digital-shift=1. Without --estimator, "
+        "--interval and --replicates, sequences of nets in base 2 have one set of points, whose 8 consecutive "
+        "parts give Student's interval, and a ninth of another set as a check: fewest points for a tolerance "
+        "(docs/findings/coverage.md). --resume FILE keeps each step in FILE: after an interrupt or a limit the "
+        "same command continues, to the same result. The last interval holds with the confidence whenever the "
+        "search ends, if the estimates are about normal and their error falls at least as n^-1/2; with fewer than "
+        "6 replicates, a confidence below 0.9 or a proved interval all steps share it. rate is the slope of log "
+        "error against log points over the last five steps, needed the number of points that a tolerance out of "
+        "reach would take by it, with its approximate 95 % interval. Patterns must be unbiased over their seeds "
+        "('koksma list claims').\n"
         "\n"
         "PROGRAM runs in the shell, with your permissions, for up to 2^16 points at a time: it reads a point a "
         "line from stdin and prints a value for each. --exec-seconds limits each run.\n",

@@ -35,71 +35,67 @@ static const char *const domains[] = {[KOKSMA_DOMAIN_DISK] = "disk",
                                       [KOKSMA_DOMAIN_SPHERE] = "sphere",
                                       [KOKSMA_DOMAIN_GGX_VISIBLE] = "hemisphere, GGX density"};
 
-static void put_dims(cli_rows *rows, int min_dim, int max_dim)
+/* The functions below return texts that are valid until their next call. */
+
+static const char *dims(int min_dim, int max_dim)
 {
-    char text[32];
+    static char text[32];
     snprintf(text, sizeof text, min_dim == max_dim ? "%d" : "%d-%d", min_dim, max_dim);
-    cli_row_text(rows, "dim", text);
+    return text;
 }
 
-static void put_params(cli_rows *rows, const koksma_param *params)
+/* The default of a parameter. */
+static const char *fallback(const koksma_param *p, char number[CLI_NUMBER])
 {
-    char text[512] = "";
+    return p->choices ? p->choices[(int)p->fallback] : cli_number(p->fallback, number);
+}
+
+static const char *params_of(const koksma_param *params)
+{
+    static char text[512];
+    char number[CLI_NUMBER];
+    *text = '\0';
     for (; params && params->name; params++) {
-        const size_t used = strlen(text);
-        const char *separator = used ? "," : "";
-        if (params->choices) {
-            snprintf(text + used, sizeof text - used, "%s%s=%s", separator, params->name,
-                     params->choices[(int)params->fallback]);
-        } else {
-            char number[CLI_NUMBER];
-            snprintf(text + used, sizeof text - used, "%s%s=%s", separator, params->name,
-                     cli_number(params->fallback, number));
-        }
+        CLI_APPEND(text, sizeof text, "%s%s=%s", *text ? "," : "", params->name, fallback(params, number));
     }
-    cli_row_text(rows, "parameters", *text ? text : "-");
+    return *text ? text : "-";
 }
 
-static void put_claims(cli_rows *rows, unsigned of)
+static const char *claims_of(unsigned of)
 {
-    char text[256] = "";
+    static char text[256];
+    *text = '\0';
     for (size_t c = 0; c < N_CLAIMS; c++) {
-        const size_t used = strlen(text);
         if (of & claim_lines[c].claim) {
-            snprintf(text + used, sizeof text - used, "%s%s", used ? "," : "", claim_lines[c].name);
+            CLI_APPEND(text, sizeof text, "%s%s", *text ? "," : "", claim_lines[c].name);
         }
     }
-    cli_row_text(rows, "claims", *text ? text : "-");
+    return *text ? text : "-";
 }
 
-/* Adds the column `ranges`: whether the pattern can generate a range of its points, and the choices of its parameters
-   with which it can't. */
-static void put_ranges(cli_rows *rows, const koksma_pattern *p)
+/* Whether the pattern can generate a range of its points, and the choices of its parameters with which it can't. */
+static const char *ranges(const koksma_pattern *p)
 {
-    char text[256] = "-";
+    static char text[256];
     double params[KOKSMA_MAX_PARAMS] = {0};
     for (int k = 0; p->params && p->params[k].name; k++) {
         params[k] = p->params[k].fallback;
     }
-    if (p->ranges && p->ranges(params)) {
-        snprintf(text, sizeof text, "yes");
-    }
+    strcpy(text, p->ranges && p->ranges(params) ? "yes" : "-");
     for (int k = 0; p->ranges && p->params && p->params[k].name; k++) {
         const koksma_param *param = &p->params[k];
         for (int c = 0; param->choices && param->choices[c]; c++) {
-            const size_t used = strlen(text);
             params[k] = c;
             if (!p->ranges(params)) {
-                snprintf(text + used, sizeof text - used, ", not %s=%s", param->name, param->choices[c]);
+                CLI_APPEND(text, sizeof text, ", not %s=%s", param->name, param->choices[c]);
             }
         }
         params[k] = param->fallback;
     }
-    cli_row_text(rows, "ranges", text);
+    return text;
 }
 
-/* Returns the title of a scene, or the error if the scene needs files of a package that is not installed. The text is
-   valid until the next call. */
+/* The title of a scene, or the error if it needs files of a package that is not installed. */
 static const char *scene_title(const char *name)
 {
     static char title[512];
@@ -110,7 +106,7 @@ static const char *scene_title(const char *name)
     return title;
 }
 
-/* Returns what a pattern takes from the text after the colon of its spec, or from the file that this text names. */
+/* What a pattern takes from the text after the colon of its spec, or from the file that this text names. */
 static const char *reads(const koksma_pattern *p)
 {
     return !p->operand                  ? "-"
@@ -120,162 +116,125 @@ static const char *reads(const koksma_pattern *p)
                                         : "parameters";
 }
 
-/* Defines the function list_TABLE. It prints one row for each item x of the table, with x->name, its meaning, and
-   `columns`. The expression `next` sets x to item i and is false past the end. */
-#define LIST(table, noun, type, next, name, meaning, columns)                                                        \
-    static void list_##table(cli_rows *rows)                                                                         \
+/* Defines the function list_TABLE, which prints a row for each item x of the table. The expression `next` sets x to item i
+   and is false past the end; the rest are the fields of a row as cli_row() takes them. */
+#define LIST(table, type, next, ...)                                                                                 \
+    static void list_##table(void)                                                                                   \
     {                                                                                                                \
         type x;                                                                                                      \
         for (size_t i = 0; next; i++) {                                                                              \
-            cli_row_text(rows, noun, name);                                                                          \
-            cli_row_text(rows, "what", meaning);                                                                     \
-            columns;                                                                                                 \
-            cli_row_end(rows);                                                                                       \
+            cli_row(__VA_ARGS__);                                                                                    \
         }                                                                                                            \
     }
-#define SOURCE cli_row_text(rows, "source", x->cite)
 
-LIST(patterns, "pattern", const koksma_pattern *, (x = koksma_pattern_at(i)), x->name, x->title,
-     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), put_claims(rows, x->claims),
-      put_ranges(rows, x), cli_row_text(rows, "reads", reads(x)), SOURCE))
-LIST(modifiers, "modifier", const koksma_modifier *, (x = koksma_modifier_at(i)), x->name, x->title,
-     (cli_row_text(rows, "keeps", x->keeps), put_claims(rows, x->claims),
-      cli_row_text(rows, "measures", strcmp(x->measures, "*") ? x->measures : "all"), SOURCE))
-LIST(measures, "measure", const koksma_measure *, (x = koksma_measure_at(i)), x->name, x->title,
-     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "cost", x->cost),
-      SOURCE))
-LIST(integrands, "integrand", const koksma_integrand *, (x = koksma_integrand_at(i)), x->name, x->title,
-     (put_dims(rows, x->min_dim, x->max_dim), put_params(rows, x->params), cli_row_text(rows, "integral", x->known),
-      SOURCE))
-LIST(estimators, "estimator", const koksma_estimator *, (x = koksma_estimator_at(i)), x->name, x->title,
-     (cli_row_text(rows, "interval", x->interval), SOURCE))
-LIST(intervals, "interval", const koksma_interval *, (x = koksma_interval_at(i)), x->name, x->title,
-     (cli_row_flag(rows, "proved", x->proved), cli_row_text(rows, "assumes", x->assumes), SOURCE))
-LIST(claims, "claim", const claim_line *, i < N_CLAIMS && (x = &claim_lines[i]), x->name, x->meaning, (void)x)
-LIST(properties, "property", const koksma_property *, (x = koksma_property_at(i)), x->name, x->meaning, (void)x)
-LIST(warps, "warp", const koksma_warp *, (x = koksma_warp_at(i)), x->name, x->title,
-     (cli_row_text(rows, "domain", domains[x->domain]), SOURCE))
-LIST(curves, "curve", const cli_curve *, (x = cli_curve_at(i)), x->name, x->meaning,
-     (cli_row_text(rows, "by",
-                   !x->print.options ? "plot"
-                   : x->plot.options ? "curve,plot"
-                                     : "curve"),
-      SOURCE))
-LIST(scenes, "scene", const char *, (x = koksma_scene_name_at(i)), x, scene_title(x), (void)x)
-LIST(integrators, "integrator", const koksma_integrator *, (x = koksma_integrator_at(i)), x->name, x->title,
-     (cli_row_whole(rows, "depth", (uint64_t)x->depth), SOURCE))
-LIST(filters, "filter", const koksma_filter *, (x = koksma_filter_at(i)), x->name, x->title,
-     (cli_row_number(rows, "radius", x->radius), SOURCE))
-LIST(metrics, "metric", const koksma_metric *, (x = koksma_metric_at(i)), x->name, x->title,
-     (put_params(rows, x->params), SOURCE))
-LIST(uses, "use", const koksma_use *, (x = koksma_use_at(i)), x->name, x->help,
-     cli_row_whole(rows, "dim", (uint64_t)x->dim))
-LIST(adaptive, "method", const koksma_adaptive *, (x = koksma_adaptive_at(i)), x->name, x->title,
-     (put_params(rows, x->params),
-      cli_row_text(rows, "samples", x->own_samples ? "own strata" : "sets of the pattern"), SOURCE))
-LIST(methods, "method", const koksma_method *, (x = koksma_method_at(i)), x->name, x->title, SOURCE)
-#define KIND (cli_row_text(rows, "fields", x.fields), cli_row_text(rows, "source", x.cite))
-LIST(materials, "material", koksma_entry, koksma_scene_kind_at("materials", i, &x), x.name, x.title, KIND)
-LIST(lights, "light", koksma_entry, koksma_scene_kind_at("lights", i, &x), x.name, x.title, KIND)
-LIST(shapes, "shape", koksma_entry, koksma_scene_kind_at("shapes", i, &x), x.name, x.title, KIND)
-LIST(pipelines, "pipeline", koksma_entry, koksma_pipeline_at(i, &x), x.name, x.title, (void)x)
-LIST(questions, "question", koksma_entry, koksma_question_at(i, &x), x.name, x.title, (void)x)
-LIST(sections, "section", koksma_entry, koksma_report_section_at(i, &x), x.name, x.title, (void)x)
+LIST(patterns, const koksma_pattern *, (x = koksma_pattern_at(i)),
+     "pattern %s what %s dim %s parameters %s claims %s ranges %s reads %s source %s\n", x->name, x->title,
+     dims(x->min_dim, x->max_dim), params_of(x->params), claims_of(x->claims), ranges(x), reads(x), x->cite)
+LIST(modifiers, const koksma_modifier *, (x = koksma_modifier_at(i)),
+     "modifier %s what %s keeps %s claims %s measures %s source %s\n", x->name, x->title, x->keeps,
+     claims_of(x->claims), strcmp(x->measures, "*") ? x->measures : "all", x->cite)
+LIST(measures, const koksma_measure *, (x = koksma_measure_at(i)),
+     "measure %s what %s dim %s parameters %s cost %s source %s\n", x->name, x->title, dims(x->min_dim, x->max_dim),
+     params_of(x->params), x->cost, x->cite)
+LIST(integrands, const koksma_integrand *, (x = koksma_integrand_at(i)),
+     "integrand %s what %s dim %s parameters %s integral %s source %s\n", x->name, x->title,
+     dims(x->min_dim, x->max_dim), params_of(x->params), x->known, x->cite)
+LIST(estimators, const koksma_estimator *, (x = koksma_estimator_at(i)),
+     "estimator %s what %s interval %s source %s\n", x->name, x->title, x->interval, x->cite)
+LIST(intervals, const koksma_interval *, (x = koksma_interval_at(i)),
+     "interval %s what %s proved? %d assumes %s source %s\n", x->name, x->title, x->proved, x->assumes, x->cite)
+LIST(claims, const claim_line *, i < N_CLAIMS && (x = &claim_lines[i]), "claim %s what %s\n", x->name, x->meaning)
+LIST(properties, const koksma_property *, (x = koksma_property_at(i)), "property %s what %s\n", x->name, x->meaning)
+LIST(warps, const koksma_warp *, (x = koksma_warp_at(i)), "warp %s what %s domain %s source %s\n", x->name, x->title,
+     domains[x->domain], x->cite)
+LIST(curves, const cli_curve *, (x = cli_curve_at(i)), "curve %s what %s by %s source %s\n", x->name, x->meaning,
+     !x->print.options ? "plot"
+     : x->plot.options ? "curve,plot"
+                       : "curve",
+     x->cite)
+LIST(scenes, const char *, (x = koksma_scene_name_at(i)), "scene %s what %s\n", x, scene_title(x))
+LIST(integrators, const koksma_integrator *, (x = koksma_integrator_at(i)),
+     "integrator %s what %s depth %d source %s\n", x->name, x->title, x->depth, x->cite)
+LIST(filters, const koksma_filter *, (x = koksma_filter_at(i)), "filter %s what %s radius %g source %s\n", x->name,
+     x->title, x->radius, x->cite)
+LIST(metrics, const koksma_metric *, (x = koksma_metric_at(i)), "metric %s what %s parameters %s source %s\n",
+     x->name, x->title, params_of(x->params), x->cite)
+LIST(uses, const koksma_use *, (x = koksma_use_at(i)), "use %s what %s dim %d\n", x->name, x->help, x->dim)
+LIST(adaptive, const koksma_adaptive *, (x = koksma_adaptive_at(i)),
+     "method %s what %s parameters %s samples %s source %s\n", x->name, x->title, params_of(x->params),
+     x->own_samples ? "own strata" : "sets of the pattern", x->cite)
+LIST(methods, const koksma_method *, (x = koksma_method_at(i)), "method %s what %s source %s\n", x->name, x->title,
+     x->cite)
+#define KIND " %s what %s fields %s source %s\n", x.name, x.title, x.fields, x.cite
+LIST(materials, koksma_entry, koksma_scene_kind_at("materials", i, &x), "material" KIND)
+LIST(lights, koksma_entry, koksma_scene_kind_at("lights", i, &x), "light" KIND)
+LIST(shapes, koksma_entry, koksma_scene_kind_at("shapes", i, &x), "shape" KIND)
+LIST(pipelines, koksma_entry, koksma_pipeline_at(i, &x), "pipeline %s what %s\n", x.name, x.title)
+LIST(questions, koksma_entry, koksma_question_at(i, &x), "question %s what %s\n", x.name, x.title)
+LIST(sections, koksma_entry, koksma_report_section_at(i, &x), "section %s what %s\n", x.name, x.title)
+LIST(plans, const char *, (x = koksma_plan_name_at(i)), "plan %s\n", x)
+LIST(records, const koksma_record *, (x = koksma_record_at(i)),
+     "measure %s dim %d n %zu value %g published %g source %s seed %g steps %g\n", x->measure, x->dim, x->n, x->value,
+     x->published > 0 ? x->published : (double)NAN, x->source, x->steps ? (double)x->seed : (double)NAN,
+     x->steps ? (double)x->steps : (double)NAN)
 
-/* The macro LIST does not fit the tables of the functions below: plans, for example, have no descriptions. */
-static void list_plans(cli_rows *rows)
-{
-    for (size_t i = 0; koksma_plan_name_at(i); i++) {
-        cli_row_text(rows, "plan", koksma_plan_name_at(i));
-        cli_row_end(rows);
-    }
-}
-
-static void list_formats(cli_rows *rows)
+static void list_formats(void)
 {
     const char *name, *left_out;
     for (size_t i = 0; (name = koksma_image_format(i, &left_out)); i++) {
-        cli_row_text(rows, "format", name);
-        cli_row_text(rows, "needs", left_out ? left_out : "-");
-        cli_row_end(rows);
+        cli_row("format %s needs %s\n", name, left_out ? left_out : "-");
     }
 }
 
-static void list_records(cli_rows *rows)
+/* The choices or the limits of a parameter. Limits have all their digits, because values beyond them are refused. */
+static const char *range(const koksma_param *p)
 {
-    const koksma_record *r;
-    for (size_t i = 0; (r = koksma_record_at(i)); i++) {
-        cli_row_text(rows, "measure", r->measure);
-        cli_row_whole(rows, "dim", (uint64_t)r->dim);
-        cli_row_whole(rows, "n", r->n);
-        cli_row_number(rows, "value", r->value);
-        cli_row_number(rows, "published", r->published > 0 ? r->published : (double)NAN);
-        cli_row_text(rows, "source", r->source);
-        cli_row_number(rows, "seed", r->steps ? (double)r->seed : (double)NAN);
-        cli_row_number(rows, "steps", r->steps ? (double)r->steps : (double)NAN);
-        cli_row_end(rows);
+    static char text[256];
+    const int all = p->whole ? 17 : 15; /* the digits of 2^53; those that a fraction in a table is written with */
+    snprintf(text, sizeof text, "%s%.*g to %.*g", p->fallback < p->min ? "0, " : "", all, p->min, all, p->max);
+    for (size_t i = 0; p->choices && p->choices[i]; i++) {
+        *text = i ? *text : '\0';
+        CLI_APPEND(text, sizeof text, "%s%s", i ? " " : "", p->choices[i]);
     }
+    return text;
 }
 
-/* Adds the choices or the limits of a parameter. Limits have all their digits, because values beyond them are refused. */
-static void put_range(cli_rows *rows, const koksma_param *p)
-{
-    char text[256] = "";
-    if (p->choices) {
-        for (size_t i = 0; p->choices[i]; i++) {
-            const size_t used = strlen(text);
-            snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "", p->choices[i]);
-        }
-    } else {
-        const int all = p->whole ? 17 : 15; /* the digits of 2^53; those that a fraction in a table is written with */
-        snprintf(text, sizeof text, "%s%.*g to %.*g", p->fallback < p->min ? "0, " : "", all, p->min, all, p->max);
-    }
-    cli_row_text(rows, "range", text);
-}
-
-static void list_parameters_of(cli_rows *rows, const char *member, const koksma_param *params)
+static void list_parameters_of(const char *member, const koksma_param *params)
 {
     for (const koksma_param *p = params; p && p->name; p++) {
-        cli_row_text(rows, "of", member);
-        cli_row_text(rows, "parameter", p->name);
-        cli_row_text(rows, "what", p->help);
+        cli_row("of %s parameter %s what %s", member, p->name, p->help);
         if (p->choices) {
-            cli_row_text(rows, "default", p->choices[(int)p->fallback]);
+            cli_row("default %s", p->choices[(int)p->fallback]);
         } else {
-            cli_row_number(rows, "default", p->fallback);
+            cli_row("default %g", p->fallback);
         }
-        put_range(rows, p);
-        cli_row_end(rows);
+        cli_row("range %s\n", range(p));
     }
 }
 
 /* Lists the parameters of all members that the function `at` returns. */
 #define PARAMETERS_OF(at)                                                                                            \
     for (size_t i = 0; at(i); i++) {                                                                                 \
-        list_parameters_of(rows, at(i)->name, at(i)->params);                                                        \
+        list_parameters_of(at(i)->name, at(i)->params);                                                              \
     }
 
-static void list_parameters(cli_rows *rows)
+static void list_parameters(void)
 {
     const koksma_pattern *p;
     const koksma_modifier *x;
     for (size_t i = 0; (p = koksma_pattern_at(i)); i++) {
         if (p->operand) {
-            cli_row_text(rows, "of", p->name);
-            cli_row_text(rows, "parameter", p->operand);
-            cli_row_text(rows, "what",
-                         p->runs_code ? "program or library to run (after the colon; needs --allow-exec)"
-                         : strcmp(p->operand, "PATH") ? "numbers, after the colon"
-                                                      : "the file that it reads, after the colon");
-            cli_row_text(rows, "default", "-");
-            cli_row_text(rows, "range", reads(p));
-            cli_row_end(rows);
+            cli_row("of %s parameter %s what %s default %s range %s\n", p->name, p->operand,
+                    p->runs_code                 ? "program or library to run (after the colon; needs --allow-exec)"
+                    : strcmp(p->operand, "PATH") ? "numbers, after the colon"
+                                                 : "the file that it reads, after the colon",
+                    "-", reads(p));
         }
-        list_parameters_of(rows, p->name, p->params);
+        list_parameters_of(p->name, p->params);
     }
     for (size_t i = 0; (x = koksma_modifier_at(i)); i++) {
         const koksma_param one[] = {{x->name, x->title, 0, x->min > 1 ? x->min : 0, x->max, NULL, true}, {0}};
-        list_parameters_of(rows, "any pattern", one);
+        list_parameters_of("any pattern", one);
     }
     PARAMETERS_OF(koksma_measure_at)
     PARAMETERS_OF(koksma_integrand_at)
@@ -285,7 +244,7 @@ static void list_parameters(cli_rows *rows)
 
 static const struct {
     const char *name;
-    void (*list)(cli_rows *rows);
+    void (*list)(void);
 } lists[] = {
     {"patterns", list_patterns},
     {"modifiers", list_modifiers},
@@ -316,43 +275,43 @@ static const struct {
     {"parameters", list_parameters},
 };
 
-const char *cli_list_names(const char *comma, char *text, size_t size)
+static const char *list_name(const void *table, size_t i)
 {
-    size_t used = 0;
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? comma : "", lists[i].name);
-    }
-    return text;
+    (void)table;
+    return i < sizeof lists / sizeof *lists ? lists[i].name : NULL;
 }
 
-static int run(const cli_arguments *arguments)
+const char *cli_list_names(const char *comma, char *text, size_t size)
 {
-    char names[512];
-    const char *which = arguments->n_operands ? arguments->operands[0] : NULL;
-    bool found = !which;
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        found = found || !strcmp(which, lists[i].name);
+    return cli_join(list_name, NULL, comma, comma, text, size);
+}
+
+static int run(const cli_args *args)
+{
+    char names[512], meant[96] = "", known[CLI_KNOWN];
+    const char *which = args->n_operands ? args->operands[0] : NULL;
+    size_t list = 0;
+    while (which && list_name(NULL, list) && strcmp(which, list_name(NULL, list)) != 0) {
+        list++;
     }
-    if (!found || arguments->n_operands > 1) {
-        char meant[96] = "", known[CLI_KNOWN];
-        if (!found && arguments->n_operands == 1 && *cli_known_as(arguments, which, known)) {
-            return cli_usage_error(arguments, "no list '%s'%s", which, known);
-        }
+    const bool found = list_name(NULL, list);
+    if (found && args->n_operands > 1) {
+        return cli_error(args, "it prints all %s, and '%s' is one operand more", which, args->operands[1]);
+    }
+    if (!found && args->n_operands == 1 && *cli_known_as(args, which, known)) {
+        return cli_error(args, "no list '%s'%s", which, known);
+    }
+    if (!found) {
         cli_list_names(", ", names, sizeof names);
-        return found ? cli_usage_error(arguments, "it prints all %s, and '%s' is one operand more", which,
-                                       arguments->operands[1])
-                     : cli_usage_error(arguments, "%sit takes one of %s", cli_meant_of(which, names, meant), names);
+        return cli_error(args, "%sit takes one of %s", cli_meant_of(which, names, meant), names);
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        if (!which) {
-            cli_row_text(rows, "list", lists[i].name);
-            cli_row_end(rows);
-        } else if (!strcmp(which, lists[i].name)) {
-            lists[i].list(rows);
-        }
+    if (which) {
+        lists[list].list();
     }
-    return cli_rows_close(rows, CLI_YES);
+    for (size_t i = 0; !which && list_name(NULL, i); i++) {
+        cli_row("list %s\n", lists[i].name);
+    }
+    return cli_rows_close(CLI_YES);
 }
 
 static const cli_option options[] = {CLI_ROW_OPTIONS, {0}};

@@ -15,7 +15,7 @@ enum { PATH = 4096, MOST_RINGS = 1024, MOST_BINS = 4096, TABLES = 3 };
 static const char six[] = "binomial:size=3,binomial:size=4,box:size=3,box:size=5,gaussian:sigma=0.7,gaussian:sigma=1";
 
 typedef struct job {
-    const cli_arguments *arguments;
+    const cli_args *args;
     const char *output;
     char path[PATH]; /* of the recipe beside the output */
     koksma_mask_recipe recipe;
@@ -25,33 +25,21 @@ typedef struct job {
     cli_work work;
 } job;
 
-static const char *space_name(const void *table, size_t i)
+/* Reads --space, whose argument lists them in the order of their table; NULL without it. Returns false after an error. */
+static bool parse_space(const cli_args *args, const koksma_mask_space **space)
 {
-    (void)table;
-    return koksma_mask_space_at(i) ? koksma_mask_space_at(i)->name : NULL;
-}
-
-/* Reads --space. Returns false after an error. */
-static bool parse_space(const cli_arguments *arguments, const koksma_mask_space **space)
-{
-    const char *name = cli_text(arguments, "space", NULL);
-    char meant[96];
-    *space = name ? koksma_mask_space_find(name) : NULL;
-    if (name && !*space) {
-        cli_usage_error(arguments,
-                        "--space %s: %sit takes scalar, tent, gaussian, vector2 to vector4, disk, circle, "
-                        "sphere or hemisphere",
-                        name, cli_meant(name, space_name, NULL, meant));
-    }
-    return !name || *space;
+    int choice = -1;
+    const bool good = cli_choice(args, "space", &choice);
+    *space = choice < 0 ? NULL : koksma_mask_space_at((size_t)choice);
+    return good;
 }
 
 /* Makes the path of the recipe beside a mask. Returns false after an error. */
-static bool recipe_of(const cli_arguments *arguments, const char *path, char recipe[PATH])
+static bool recipe_of(const cli_args *args, const char *path, char recipe[PATH])
 {
     const int length = snprintf(recipe, PATH, "%s.json", path);
     if (length >= PATH) {
-        cli_usage_error(arguments, "the path is longer than %d bytes", PATH - 6);
+        cli_error(args, "the path is longer than %d bytes", PATH - 6);
     }
     return length < PATH;
 }
@@ -60,74 +48,67 @@ static bool recipe_of(const cli_arguments *arguments, const char *path, char rec
 static int parse_new(job *j)
 {
     koksma_mask_options *o = &j->recipe.options;
-    const char *from = cli_text(j->arguments, "from", "");
+    const char *from = cli_text(j->args, "from", "");
     uint64_t levels;
     o->width = o->height = 128;
-    if (!parse_space(j->arguments, &o->space) || !cli_size(j->arguments, &o->width, &o->height) ||
-        !cli_whole(j->arguments, "levels", 0, 2, KOKSMA_MASK_MAX * KOKSMA_MASK_MAX, &levels) ||
-        !cli_whole(j->arguments, "seed", 0, 0, UINT64_MAX, &o->seed) ||
-        !cli_real(j->arguments, "swaps", 4000, 0, 1e6, &o->swaps) ||
-        !cli_real(j->arguments, "until", 0, 0, 1e100, &o->target)) {
+    if (!parse_space(j->args, &o->space) || !cli_size(j->args, &o->width, &o->height) ||
+        !cli_whole(j->args, "levels", 0, 2, KOKSMA_MASK_MAX * KOKSMA_MASK_MAX, &levels) ||
+        !cli_whole(j->args, "seed", 0, 0, UINT64_MAX, &o->seed) ||
+        !cli_real(j->args, "swaps", 4000, 0, 1e6, &o->swaps) ||
+        !cli_real(j->args, "until", 0, 0, 1e100, &o->target)) {
         return CLI_USAGE;
     }
-    o->open = cli_flag(j->arguments, "open");
+    o->open = cli_flag(j->args, "open");
     o->levels = (int)levels;
-    snprintf(j->recipe.filter, KOKSMA_MASK_MAX_TEXT, "%s", cli_text(j->arguments, "filter", "gaussian:sigma=1"));
+    snprintf(j->recipe.filter, KOKSMA_MASK_MAX_TEXT, "%s", cli_text(j->args, "filter", "gaussian:sigma=1"));
     snprintf(j->recipe.from, KOKSMA_MASK_MAX_TEXT, "%s", from);
-    if (!strcmp(j->recipe.filter, "gaussian") && !cli_flag(j->arguments, "quiet")) {
-        cli_say("mask",
-                "note: gaussian is the pixel filter; gaussian:sigma=1, in pixels, is the filter of most masks");
+    if (!strcmp(j->recipe.filter, "gaussian")) {
+        cli_note(j->args,
+                 "note: gaussian is the pixel filter; gaussian:sigma=1, in pixels, is the filter of most masks");
     }
     koksma_status status = koksma_mask_filter_parse(j->recipe.filter, &o->filter);
     if (!status && *from) {
         status = koksma_mask_read(from, o->space, &j->first);
-        if (!status && cli_text(j->arguments, "size", NULL) &&
+        if (!status && cli_text(j->args, "size", NULL) &&
             (j->first.width != o->width || j->first.height != o->height)) {
-            return cli_usage_error(j->arguments, "--from %s: its size is %d x %d; --size may be left out", from,
-                                   j->first.width, j->first.height);
+            return cli_error(j->args, "--from %s: its size is %d x %d; --size may be left out", from, j->first.width,
+                             j->first.height);
         }
         o->width = j->first.width;
         o->height = j->first.height;
         o->space = j->first.space;
         o->from = j->first.values;
     }
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
+    return status ? cli_fail(j->args, status) : CLI_YES;
 }
 
 /* Reads the mask of --resume and its recipe. Returns the exit code. */
 static int parse_resumed(job *j)
 {
-    const char *path = cli_text(j->arguments, "resume", NULL);
+    const char *path = cli_text(j->args, "resume", NULL);
     char recipe[PATH];
     koksma_mask_options *o = &j->recipe.options;
-    if (!recipe_of(j->arguments, path, recipe)) {
+    if (!recipe_of(j->args, path, recipe)) {
         return CLI_USAGE;
     }
     koksma_status status = koksma_mask_read_recipe(recipe, &j->recipe);
     status = status ? status : koksma_mask_read(path, o->space, &j->first);
     if (!status && (j->first.width != o->width || j->first.height != o->height)) {
-        return cli_usage_error(j->arguments, "--resume %s: its size is %d x %d, and %d x %d in its recipe", path,
-                               j->first.width, j->first.height, o->width, o->height);
+        return cli_error(j->args, "--resume %s: its size is %d x %d, and %d x %d in its recipe", path, j->first.width,
+                         j->first.height, o->width, o->height);
     }
     o->from = j->first.values;
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
+    return status ? cli_fail(j->args, status) : CLI_YES;
 }
 
 static int report(const job *j, const koksma_mask_quality *q)
 {
-    cli_rows *rows = cli_rows_open(cli_flag(j->arguments, "json"));
-    cli_row_text(rows, "output", j->output);
-    cli_row_whole(rows, "width", (uint64_t)j->mask.width);
-    cli_row_whole(rows, "height", (uint64_t)j->mask.height);
-    cli_row_text(rows, "space", j->mask.space->name);
-    cli_row_text(rows, "filter", *j->recipe.filter ? j->recipe.filter : "-");
-    cli_row_number(rows, "error", q->error);
-    cli_row_number(rows, "white", q->white);
-    cli_row_number(rows, "ratio", q->error / q->white);
-    cli_row_whole(rows, "swaps", j->recipe.result.done);
-    cli_row_flag(rows, "finished", j->recipe.result.finished);
-    cli_row_end(rows);
-    return cli_rows_close(rows, CLI_YES);
+    cli_row("output %s width %d height %d space %s filter %s error %g white %g ratio %g "
+            "swaps %llu finished? %d\n",
+            j->output, j->mask.width, j->mask.height, j->mask.space->name, *j->recipe.filter ? j->recipe.filter : "-",
+            q->error, q->white, q->error / q->white, (unsigned long long)j->recipe.result.done,
+            j->recipe.result.finished);
+    return cli_rows_close(CLI_YES);
 }
 
 static int tests_of(const koksma_mask_space *space)
@@ -154,35 +135,35 @@ static int make(job *j)
     status = status ? status
                     : koksma_mask_measure(j->mask.width, j->mask.height, j->mask.space, j->mask.values, &o->filter,
                                           tests_of(j->mask.space), &j->work.run, &q);
-    return status ? cli_fail(j->arguments, status) : report(j, &q);
+    return status ? cli_fail(j->args, status) : report(j, &q);
 }
 
-static int run_make(const cli_arguments *arguments)
+static int run_make(const cli_args *args)
 {
-    job j = {.arguments = arguments, .output = cli_text(arguments, "output", cli_text(arguments, "resume", NULL))};
+    job j = {.args = args, .output = cli_text(args, "output", cli_text(args, "resume", NULL))};
     koksma_mask_options *o = &j.recipe.options;
-    if (arguments->n_operands) {
-        return cli_usage_error(arguments, "%s: it takes 'check' and files, or options alone", arguments->operands[0]);
+    if (args->n_operands) {
+        return cli_error(args, "%s: it takes 'check' and files, or options alone", args->operands[0]);
     }
-    if (!cli_refuse(arguments, "tests rings histogram correlation", "is of 'koksma mask check'")) {
+    if (!cli_refuse(args, "tests rings histogram correlation", "is of 'koksma mask check'")) {
         return CLI_USAGE;
     }
     if (!j.output) {
-        return cli_usage_error(arguments, "-o FILE, the file for the mask, is missing");
+        return cli_error(args, "-o FILE, the file for the mask, is missing");
     }
-    const bool resumed = cli_text(arguments, "resume", NULL) != NULL;
-    if ((resumed && !cli_refuse(arguments, "filter size space open levels swaps until seed from",
-                                "has no effect with --resume")) ||
-        !recipe_of(arguments, j.output, j.path) || !cli_whole(arguments, "bits", 0, 8, 32, &j.bits) ||
-        !cli_work_begin(arguments, "arranging", &j.work) ||
-        !cli_real(arguments, "time-limit", 0, 0, 1e9, &j.work.run.time_limit_s)) {
+    const bool resumed = cli_text(args, "resume", NULL) != NULL;
+    if ((resumed &&
+         !cli_refuse(args, "filter size space open levels swaps until seed from", "has no effect with --resume")) ||
+        !recipe_of(args, j.output, j.path) || !cli_whole(args, "bits", 0, 8, 32, &j.bits) ||
+        !cli_work_begin(args, "arranging", &j.work) ||
+        !cli_real(args, "time-limit", 0, 0, 1e9, &j.work.run.time_limit_s)) {
         return CLI_USAGE;
     }
     int code = resumed ? parse_resumed(&j) : parse_new(&j);
     o->space = o->space ? o->space : koksma_mask_space_at(0);
     const koksma_status status = code ? KOKSMA_OK : koksma_mask_check_path(j.output, o->space, (int)j.bits);
-    code = status ? cli_fail(arguments, status) : code;
-    code = code ? code : cli_try_output(arguments, j.output);
+    code = status ? cli_fail(args, status) : code;
+    code = code ? code : cli_try_output(args, j.output);
     code = code ? code : make(&j);
     koksma_mask_fini(&j.mask);
     koksma_mask_fini(&j.first);
@@ -201,7 +182,7 @@ static int ascending(const void *a, const void *b)
 /* Prints the number of different values of a mask of one number, and how often the rarest and the most frequent one
    occurs; with a warning to stderr, if they are not equally often. warn: the file's name; NULL: no warning. Returns false
    without memory. */
-static bool put_histogram(cli_rows *rows, const koksma_mask *mask, const char *warn)
+static bool put_histogram(const koksma_mask *mask, const char *warn)
 {
     const size_t n = (size_t)mask->width * (size_t)mask->height;
     float *sorted = malloc(n * sizeof *sorted);
@@ -221,54 +202,41 @@ static bool put_histogram(cli_rows *rows, const koksma_mask *mask, const char *w
     free(sorted);
     /* One more where the levels of a picture do not divide the pixels; levels of a distribution are not equally often. */
     if (warn && mask->space->low >= 0 && most > least + 1) {
-        fprintf(stderr,
-                "koksma mask: %s: warning: no permutation: some numbers occur %zu times, others %zu, so that a "
-                "threshold keeps no exact share of the pixels; --from makes a mask of these numbers\n",
+        cli_say("mask",
+                "%s: warning: no permutation: some numbers occur %zu times, others %zu, so that a threshold keeps no "
+                "exact share of the pixels; --from makes a mask of these numbers",
                 warn, least, most);
     }
-    cli_row_whole(rows, "levels", levels);
-    cli_row_whole(rows, "least_often", least);
-    cli_row_whole(rows, "most_often", most);
+    cli_row("levels %zu least_often %zu most_often %zu", levels, least, most);
     return true;
 }
 
-static int put_quality(cli_rows *rows, const char *path, const koksma_mask *mask, const char *filter,
-                       const koksma_mask_quality *q, bool warn)
+static int put_quality(const char *path, const koksma_mask *mask, const char *filter, const koksma_mask_quality *q,
+                       bool warn)
 {
-    cli_row_text(rows, "file", path);
-    cli_row_whole(rows, "width", (uint64_t)mask->width);
-    cli_row_whole(rows, "height", (uint64_t)mask->height);
-    cli_row_text(rows, "space", mask->space->name);
-    cli_row_text(rows, "filter", filter);
-    cli_row_number(rows, "error", q->error);
-    cli_row_number(rows, "white", q->white);
-    cli_row_number(rows, "ratio", q->error / q->white);
-    cli_row_number(rows, "inside", q->inside);
-    cli_row_number(rows, "seam", q->seam);
-    const bool ok = mask->space->dim > 1 || put_histogram(rows, mask, warn ? path : NULL);
-    cli_row_end(rows);
+    cli_row("file %s width %d height %d space %s filter %s error %g white %g ratio %g inside %g "
+            "seam %g",
+            path, mask->width, mask->height, mask->space->name, filter, q->error, q->white, q->error / q->white,
+            q->inside, q->seam);
+    const bool ok = mask->space->dim > 1 || put_histogram(mask, warn ? path : NULL);
+    cli_row_end();
     return ok ? CLI_YES : cli_no_memory();
 }
 
 /* Prints a row for each ring of the spectrum. */
-static int put_rings(const cli_arguments *arguments, cli_rows *rows, const char *path, const koksma_mask *mask,
-                     int rings)
+static int put_rings(const cli_args *args, const char *path, const koksma_mask *mask, int rings)
 {
     double power[MOST_RINGS], anisotropy[MOST_RINGS];
     const koksma_status status = koksma_mask_rings(mask, rings, power, anisotropy);
     for (int r = 0; r < rings && !status; r++) {
-        cli_row_text(rows, "file", path);
-        cli_row_number(rows, "frequency", (r + 0.5) / (2 * rings));
-        cli_row_number(rows, "power", power[r]);
-        cli_row_number(rows, "anisotropy_db", anisotropy[r]);
-        cli_row_end(rows);
+        cli_row("file %s frequency %g power %g anisotropy_db %g\n", path, (r + 0.5) / (2 * rings), power[r],
+                anisotropy[r]);
     }
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    return status ? cli_fail(args, status) : CLI_YES;
 }
 
 /* Prints a row for each number and interval of the histogram. */
-static int put_bins(const cli_arguments *arguments, cli_rows *rows, const char *path, const koksma_mask *mask,
-                    int bins)
+static int put_bins(const cli_args *args, const char *path, const koksma_mask *mask, int bins)
 {
     const koksma_mask_space *space = mask->space;
     const size_t count = (size_t)space->dim * (size_t)bins;
@@ -279,19 +247,15 @@ static int put_bins(const cli_arguments *arguments, cli_rows *rows, const char *
     const koksma_status status = koksma_mask_histogram(mask, bins, counts);
     for (size_t i = 0; i < count && !status; i++) {
         const double from = (double)(i % (size_t)bins) / bins;
-        cli_row_text(rows, "file", path);
-        cli_row_whole(rows, "number", i / (size_t)bins);
-        cli_row_number(rows, "from", space->low + from * (space->high - space->low));
-        cli_row_whole(rows, "pixels", counts[i]);
-        cli_row_end(rows);
+        cli_row("file %s number %zu from %g pixels %zu\n", path, i / (size_t)bins,
+                space->low + from * (space->high - space->low), counts[i]);
     }
     free(counts);
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    return status ? cli_fail(args, status) : CLI_YES;
 }
 
 /* Prints the correlations of two masks, or of one with itself, at the offsets up to `reach` along each axis. */
-static int put_offsets(const cli_arguments *arguments, cli_rows *rows, const char *const paths[2],
-                       const koksma_mask *const masks[2], int reach)
+static int put_offsets(const cli_args *args, const char *const paths[2], const koksma_mask *const masks[2], int reach)
 {
     const int width = masks[0]->width, height = masks[0]->height;
     double *all = malloc((size_t)width * (size_t)height * sizeof *all);
@@ -303,16 +267,12 @@ static int put_offsets(const cli_arguments *arguments, cli_rows *rows, const cha
     const int down = reach < (height - 1) / 2 ? reach : (height - 1) / 2;
     for (int y = -down; y <= down && !status; y++) {
         for (int x = -across; x <= across; x++) {
-            cli_row_text(rows, "file", paths[0]);
-            cli_row_text(rows, "with", paths[1]);
-            cli_row_number(rows, "dx", x);
-            cli_row_number(rows, "dy", y);
-            cli_row_number(rows, "correlation", all[(y + height) % height * width + (x + width) % width]);
-            cli_row_end(rows);
+            cli_row("file %s with %s dx %d dy %d correlation %g\n", paths[0], paths[1], x, y,
+                    all[(y + height) % height * width + (x + width) % width]);
         }
     }
     free(all);
-    return status ? cli_fail(arguments, status) : CLI_YES;
+    return status ? cli_fail(args, status) : CLI_YES;
 }
 
 /* Says so if the first number of each pixel, as a mask of its own, is better than the whole: the four masks of an RGBA
@@ -338,14 +298,13 @@ static void tell_channels(const char *path, const koksma_mask *mask, const koksm
 }
 
 /* Measures a mask with each filter. */
-static int put_filters(const cli_arguments *arguments, cli_rows *rows, const char *path, const koksma_mask *mask,
-                       const koksma_run *run)
+static int put_filters(const cli_args *args, const char *path, const koksma_mask *mask, const koksma_run *run)
 {
-    const char *list = cli_text(arguments, "filter", six);
+    const char *list = cli_text(args, "filter", six);
     char text[KOKSMA_MAX_SPEC];
     uint64_t tests;
     int code = CLI_YES;
-    if (!cli_whole(arguments, "tests", (uint64_t)tests_of(mask->space), 1, 65536, &tests)) {
+    if (!cli_whole(args, "tests", (uint64_t)tests_of(mask->space), 1, 65536, &tests)) {
         return CLI_USAGE;
     }
     for (size_t i = 0; !code && cli_list_item(list, i, text, sizeof text); i++) {
@@ -355,11 +314,11 @@ static int put_filters(const cli_arguments *arguments, cli_rows *rows, const cha
         status = status ? status
                         : koksma_mask_measure(mask->width, mask->height, mask->space, mask->values, &filter,
                                               (int)tests, run, &q);
-        const bool warn = !i && !cli_flag(arguments, "quiet");
+        const bool warn = !i && !cli_flag(args, "quiet");
         if (!status && warn && mask->space->dim > 1) {
             tell_channels(path, mask, &filter, q.error / q.white, run);
         }
-        code = status ? cli_fail(arguments, status) : put_quality(rows, path, mask, text, &q, warn);
+        code = status ? cli_fail(args, status) : put_quality(path, mask, text, &q, warn);
     }
     return code;
 }
@@ -371,90 +330,84 @@ typedef struct tables {
 } tables;
 
 /* Reads which table is asked for. Returns false after an error. */
-static bool parse_tables(const cli_arguments *arguments, tables *t)
+static bool parse_tables(const cli_args *args, tables *t)
 {
     const char *const options[TABLES] = {"rings", "histogram", "correlation"};
     const char *first = NULL;
     for (size_t i = 0; i < TABLES; i++) {
-        const bool given = cli_text(arguments, options[i], NULL) != NULL;
+        const bool given = cli_text(args, options[i], NULL) != NULL;
         if (given && first) {
-            cli_usage_error(arguments, "--%s: it prints rows in place of --%s", options[i], first);
-            return false;
+            return !cli_error(args, "--%s: it prints rows in place of --%s", options[i], first);
         }
         first = given ? options[i] : first;
     }
-    t->correlation = cli_text(arguments, "correlation", NULL) != NULL;
-    if (t->correlation && arguments->n_operands > 3) {
-        cli_usage_error(arguments, "--correlation: it takes one mask or two, not %d", arguments->n_operands - 1);
-        return false;
+    t->correlation = cli_text(args, "correlation", NULL) != NULL;
+    if (t->correlation && args->n_operands > 3) {
+        return !cli_error(args, "--correlation: it takes one mask or two, not %d", args->n_operands - 1);
     }
-    return cli_whole(arguments, "rings", 0, 1, MOST_RINGS, &t->rings) &&
-           cli_whole(arguments, "histogram", 0, 1, MOST_BINS, &t->bins) &&
-           cli_whole(arguments, "correlation", 0, 0, KOKSMA_MASK_MAX, &t->reach);
+    return cli_whole(args, "rings", 0, 1, MOST_RINGS, &t->rings) &&
+           cli_whole(args, "histogram", 0, 1, MOST_BINS, &t->bins) &&
+           cli_whole(args, "correlation", 0, 0, KOKSMA_MASK_MAX, &t->reach);
 }
 
 /* Prints the rows of one mask. */
-static int put_mask(const cli_arguments *arguments, const tables *t, cli_rows *rows, const char *path,
-                    const koksma_mask *mask, const koksma_run *run)
+static int put_mask(const cli_args *args, const tables *t, const char *path, const koksma_mask *mask,
+                    const koksma_run *run)
 {
-    return t->rings  ? put_rings(arguments, rows, path, mask, (int)t->rings)
-           : t->bins ? put_bins(arguments, rows, path, mask, (int)t->bins)
-                     : put_filters(arguments, rows, path, mask, run);
+    return t->rings  ? put_rings(args, path, mask, (int)t->rings)
+           : t->bins ? put_bins(args, path, mask, (int)t->bins)
+                     : put_filters(args, path, mask, run);
 }
 
 /* Correlates one mask with itself, or two with each other. */
-static int put_correlation(const cli_arguments *arguments, const tables *t, const koksma_mask_space *space,
-                           cli_rows *rows)
+static int put_correlation(const cli_args *args, const tables *t, const koksma_mask_space *space)
 {
     koksma_mask masks[2] = {{0}};
-    const char *const *paths = (const char *const *)arguments->operands + 1;
-    const size_t n = (size_t)arguments->n_operands - 1;
+    const char *const *paths = (const char *const *)args->operands + 1;
+    const size_t n = (size_t)args->n_operands - 1;
     koksma_status status = KOKSMA_OK;
     for (size_t i = 0; i < n && !status; i++) {
         status = koksma_mask_read(paths[i], space, &masks[i]);
     }
-    const int code = status ? cli_fail(arguments, status)
-                            : put_offsets(arguments, rows, (const char *const[]){paths[0], paths[n - 1]},
+    const int code = status ? cli_fail(args, status)
+                            : put_offsets(args, (const char *const[]){paths[0], paths[n - 1]},
                                           (const koksma_mask *const[]){&masks[0], &masks[n - 1]}, (int)t->reach);
     koksma_mask_fini(&masks[0]);
     koksma_mask_fini(&masks[1]);
     return code;
 }
 
-static int run_check(const cli_arguments *arguments)
+static int run_check(const cli_args *args)
 {
     const koksma_mask_space *space;
     cli_work work;
     tables t = {0};
-    if (!cli_refuse(arguments, "output size open levels swaps until seed from resume bits time-limit",
+    if (!cli_refuse(args, "output size open levels swaps until seed from resume bits time-limit",
                     "has no effect on 'check'")) {
         return CLI_USAGE;
     }
-    if (arguments->n_operands < 2) {
-        return cli_usage_error(arguments, "check: it takes one mask or more");
+    if (args->n_operands < 2) {
+        return cli_error(args, "check: it takes one mask or more");
     }
-    if (!parse_space(arguments, &space) || !parse_tables(arguments, &t) ||
-        !cli_work_begin(arguments, "measuring", &work)) {
+    if (!parse_space(args, &space) || !parse_tables(args, &t) || !cli_work_begin(args, "measuring", &work)) {
         return CLI_USAGE;
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    int code = t.correlation ? put_correlation(arguments, &t, space, rows) : CLI_YES;
-    for (int i = 1; i < arguments->n_operands && !code && !t.correlation; i++) {
+    int code = t.correlation ? put_correlation(args, &t, space) : CLI_YES;
+    for (int i = 1; i < args->n_operands && !code && !t.correlation; i++) {
         koksma_mask mask;
-        const koksma_status status = koksma_mask_read(arguments->operands[i], space, &mask);
-        cli_work_part(&work, (size_t)i - 1, (size_t)arguments->n_operands - 1);
-        code = status ? cli_fail(arguments, status)
-                      : put_mask(arguments, &t, rows, arguments->operands[i], &mask, &work.run);
+        const koksma_status status = koksma_mask_read(args->operands[i], space, &mask);
+        cli_work_part(&work, (size_t)i - 1, (size_t)args->n_operands - 1);
+        code = status ? cli_fail(args, status) : put_mask(args, &t, args->operands[i], &mask, &work.run);
         koksma_mask_fini(&mask);
     }
     cli_work_end();
-    return cli_rows_close(rows, code);
+    return cli_rows_close(code);
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
-    const bool check = arguments->n_operands && !strcmp(arguments->operands[0], "check");
-    return check ? run_check(arguments) : run_make(arguments);
+    const bool check = args->n_operands && !strcmp(args->operands[0], "check");
+    return check ? run_check(args) : run_make(args);
 }
 
 static const cli_option options[] = {

@@ -14,58 +14,44 @@
 #include "measuring.h"
 #include "source.h"
 
-static void put_corner(char *text, size_t size, const double *xs, int dim)
+static void put_corner(char json[1024], const char *key, const double *xs, int dim)
 {
-    size_t used = strlen(text);
-    for (int k = 0; k < dim && used < size; k++) {
-        used += (size_t)snprintf(text + used, size - used, "%s%.17g", k ? "," : "[", xs[k]);
+    CLI_APPEND(json, 1024, ",\"%s\":", key);
+    for (int k = 0; k < dim; k++) {
+        CLI_APPEND(json, 1024, "%c%.17g", k ? ',' : '[', xs[k]);
     }
-    if (used + 1 < size) {
-        strcat(text, "]");
-    }
+    CLI_APPEND(json, 1024, "]");
 }
 
-static void put_witness(cli_rows *rows, const koksma_witness *w)
+static void put_witness(const koksma_witness *w)
 {
-    static const char *const kinds[] = {[KOKSMA_WITNESS_NONE] = "none",
-                                        [KOKSMA_WITNESS_BOX] = "box",
-                                        [KOKSMA_WITNESS_HALF_PLANE] = "half-plane",
-                                        [KOKSMA_WITNESS_DISK] = "disk"};
+    static const char *const kinds[] = {
+        [KOKSMA_WITNESS_BOX] = "box", [KOKSMA_WITNESS_HALF_PLANE] = "half-plane", [KOKSMA_WITNESS_DISK] = "disk"};
+    char json[1024], text[256], a[CLI_NUMBER], b[CLI_NUMBER], c[CLI_NUMBER], d[CLI_NUMBER];
     if (w->kind == KOKSMA_WITNESS_NONE) {
-        cli_row_json(rows, "witness", "null", "-");
+        cli_row("witness %s", (const char *)NULL);
         return;
     }
-    char json[1024], text[256];
-    const int lo_dim = w->kind == KOKSMA_WITNESS_DISK ? 2 : w->dim,
-              hi_dim = w->kind == KOKSMA_WITNESS_BOX ? w->dim : 1;
-    snprintf(json, sizeof json,
-             "{\"kind\":\"%s\",\"closed\":%s,\"count\":%zu,\"volume\":%.17g,\"lo\":", kinds[w->kind],
+    snprintf(json, sizeof json, "{\"kind\":\"%s\",\"closed\":%s,\"count\":%zu,\"volume\":%.17g", kinds[w->kind],
              w->closed ? "true" : "false", w->count, w->volume);
-    put_corner(json, sizeof json, w->lo, lo_dim);
-    strcat(json, ",\"hi\":");
-    put_corner(json, sizeof json, w->hi, hi_dim);
+    put_corner(json, "lo", w->lo, w->kind == KOKSMA_WITNESS_DISK ? 2 : w->dim);
+    put_corner(json, "hi", w->hi, w->kind == KOKSMA_WITNESS_BOX ? w->dim : 1);
     strcat(json, "}");
     const bool space = w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 3;
-    int used = snprintf(text, sizeof text, "%zu point%s in the %s %s", w->count, w->count == 1 ? "" : "s",
-                        w->closed ? "closed" : "open", space ? "half-space" : kinds[w->kind]);
-    char a[CLI_NUMBER], b[CLI_NUMBER], c[CLI_NUMBER];
-    if (w->kind == KOKSMA_WITNESS_BOX) {
-        for (int k = 0; k < w->dim && used < (int)sizeof text; k++) {
-            used += snprintf(text + used, sizeof text - (size_t)used, "%s%s..%s", k ? " x " : " ",
-                             cli_number(w->lo[k], a), cli_number(w->hi[k], b));
-        }
-    } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE) {
-        used += snprintf(text + used, sizeof text - (size_t)used, " %s x + %s y", cli_number(w->lo[0], a),
-                         cli_number(w->lo[1], b));
-        if (space) {
-            used += snprintf(text + used, sizeof text - (size_t)used, " + %s z", cli_number(w->lo[2], a));
-        }
-        snprintf(text + used, sizeof text - (size_t)used, " <= %s", cli_number(w->hi[0], a));
-    } else {
-        snprintf(text + used, sizeof text - (size_t)used, " about (%s, %s) of radius %s", cli_number(w->lo[0], a),
-                 cli_number(w->lo[1], b), cli_number(w->hi[0], c));
+    snprintf(text, sizeof text, "%zu point%s in the %s %s", w->count, w->count == 1 ? "" : "s",
+             w->closed ? "closed" : "open", space ? "half-space" : kinds[w->kind]);
+    for (int k = 0; k < w->dim && w->kind == KOKSMA_WITNESS_BOX; k++) {
+        CLI_APPEND(text, sizeof text, "%s%s..%s", k ? " x " : " ", cli_number(w->lo[k], a), cli_number(w->hi[k], b));
     }
-    cli_row_json(rows, "witness", json, text);
+    if (w->kind == KOKSMA_WITNESS_HALF_PLANE) {
+        CLI_APPEND(text, sizeof text, " %s x + %s y%s%s%s <= %s", cli_number(w->lo[0], a), cli_number(w->lo[1], b),
+                   space ? " + " : "", space ? cli_number(w->lo[2], c) : "", space ? " z" : "",
+                   cli_number(w->hi[0], d));
+    } else if (w->kind == KOKSMA_WITNESS_DISK) {
+        CLI_APPEND(text, sizeof text, " about (%s, %s) of radius %s", cli_number(w->lo[0], a),
+                   cli_number(w->lo[1], b), cli_number(w->hi[0], c));
+    }
+    cli_row_json("witness", json, text);
 }
 
 static void put_row(measuring *j, const char *source, const koksma_points *points, const koksma_spec *measure,
@@ -73,36 +59,31 @@ static void put_row(measuring *j, const char *source, const koksma_points *point
 {
     char name[KOKSMA_MAX_SPEC];
     koksma_spec_text(measure, name);
-    cli_row_text(j->rows, "source", source);
-    cli_row_whole(j->rows, "n", points->n);
-    cli_row_whole(j->rows, "dim", (uint64_t)points->dim);
-    cli_row_text(j->rows, "measure", name);
+    cli_row("source %s n %zu dim %d measure %s", source, points->n, points->dim, name);
     if (j->warp) {
-        cli_row_text(j->rows, "warp", j->warp->name);
+        cli_row("warp %s", j->warp->name);
     }
-    cli_row_number(j->rows, "value", value->value);
-    const bool json = cli_flag(j->arguments, "json");
+    cli_row("value %g", value->value);
+    const bool json = cli_flag(j->args, "json");
     if (json) {
-        cli_row_number(j->rows, "square", value->square);
+        cli_row("square %g", value->square);
     }
     if (json || j->bounds || cli_is_cut_short(measure, value)) {
-        cli_row_flag(j->rows, "exact", value->exact);
-        cli_row_number(j->rows, "lower", value->lower);
-        cli_row_number(j->rows, "upper", value->upper);
+        cli_row("exact? %d lower %g upper %g", value->exact, value->lower, value->upper);
     }
     if (json || j->sampled) {
         const bool none = !json && measure->measure->answer != KOKSMA_ANSWER_SAMPLED;
-        cli_row_number(j->rows, "standard_error", none ? (double)NAN : value->standard_error);
+        cli_row("standard_error %g", none ? (double)NAN : value->standard_error);
     }
-    put_witness(j->rows, &value->witness);
-    cli_row_end(j->rows);
+    put_witness(&value->witness);
+    cli_row_end();
 }
 
 koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value)
 {
     const koksma_spec *spec = &j->measures[measure];
     j->work.what = spec->measure->name;
-    const size_t sets = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1) * j->trials;
+    const size_t sets = (size_t)j->args->n_operands * (j->n_warps ? j->n_warps : 1) * j->trials;
     const size_t all = sets * j->n_measures * (j->n_prefixes ? j->n_prefixes : 1);
     cli_work_part(&j->work, j->n_evaluated < all ? j->n_evaluated : all - 1, all);
     j->n_evaluated++;
@@ -110,25 +91,54 @@ koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_poin
     run.time_limit_s = j->time_limit_s;
     const koksma_status status = j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
                                          : koksma_evaluate(spec, points, &run, value);
-    j->n_cut[measure] += !status && cli_is_cut_short(spec, value);
+    j->fits[measure].n_cut += !status && cli_is_cut_short(spec, value);
     return status;
 }
 
-/* Prints a line on stderr for each measure that was cut short. */
-static void tell_cuts(const measuring *j)
+/* Returns whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and
+   theory applies to it. Sequences, and independent points without cells, have this property. The first k points of
+   other patterns are only a part of a set, such as a strip of cells. */
+static bool prefixes_are_sets(const koksma_spec *spec)
 {
-    for (size_t m = 0; j->n_cut && m < j->n_measures; m++) {
-        char text[KOKSMA_MAX_SPEC];
-        koksma_spec_text(&j->measures[m], text);
-        cli_tell_cuts(j->arguments, text, j->n_cut[m]);
+    const unsigned claims = spec->pattern->claims;
+    return koksma_is_sequence(spec) || (claims & KOKSMA_CLAIM_INDEPENDENT && !(claims & KOKSMA_CLAIM_STRATIFIED));
+}
+
+/* Whether slopes of some source are fitted to one set: there is one trial, or the pattern has only one set. */
+static bool has_residuals(const measuring *j)
+{
+    bool any = j->trials == 1;
+    for (int i = 0; i < j->args->n_operands && !any && j->by_size; i++) {
+        cli_source parts;
+        any = !cli_source_open(j->args, j->args->operands[i], &parts) &&
+              (!parts.is_pattern || koksma_has_one_set(&parts.spec));
     }
+    return any;
+}
+
+/* Refuses --prefixes for a pattern whose first points are not a set of the pattern. */
+static bool check_prefixes(const measuring *j)
+{
+    for (int i = 0; cli_text(j->args, "prefixes", NULL) && i < j->args->n_operands; i++) {
+        cli_source parts;
+        if (cli_source_open(j->args, j->args->operands[i], &parts)) {
+            return false;
+        }
+        if (parts.is_pattern && !prefixes_are_sets(&parts.spec)) {
+            return !cli_error(j->args,
+                              "--prefixes: %s is no sequence, so its first points are no set of the pattern; use "
+                              "--sizes 16,64,256 to measure a set of each n",
+                              parts.spec.pattern->name);
+        }
+    }
+    return true;
 }
 
 /* Chooses the optional columns, which all rows of a table have in common. */
 static void choose_columns(measuring *j)
 {
     j->bounds = j->time_limit_s > 0;
-    j->residuals = measuring_has_residuals(j);
+    j->residuals = has_residuals(j);
     for (size_t m = 0; m < j->n_measures; m++) {
         j->bounds = j->bounds || j->measures[m].measure->answer == KOKSMA_ANSWER_BOUND;
         j->sampled = j->sampled || j->measures[m].measure->answer == KOKSMA_ANSWER_SAMPLED;
@@ -143,7 +153,7 @@ koksma_status measuring_forgive(measuring *j, koksma_status status)
     if (!unable || !(j->all || j->by_default)) {
         return status;
     }
-    if (j->by_default && !cli_flag(j->arguments, "quiet") && strcmp(j->note, koksma_error_text()) != 0) {
+    if (j->by_default && !cli_flag(j->args, "quiet") && strcmp(j->note, koksma_error_text()) != 0) {
         snprintf(j->note, sizeof j->note, "%s", koksma_error_text());
         cli_work_end();
         cli_say("measure", "left out: %s", j->note);
@@ -172,7 +182,7 @@ int measuring_check_dim(measuring *j, int dim)
         status = status == KOKSMA_DIM || status == KOKSMA_UNSUPPORTED ? status : KOKSMA_OK;
         more = one_suffices ? status != KOKSMA_OK : status == KOKSMA_OK;
     }
-    const int code = status ? cli_fail(j->arguments, status) : CLI_YES;
+    const int code = status ? cli_fail(j->args, status) : CLI_YES;
     koksma_points_fini(&points);
     return code;
 }
@@ -181,9 +191,9 @@ int measuring_check_dim(measuring *j, int dim)
 static int check_patterns(measuring *j)
 {
     int code = CLI_YES;
-    for (int i = 0; !code && i < j->arguments->n_operands; i++) {
+    for (int i = 0; !code && i < j->args->n_operands; i++) {
         cli_source parts;
-        code = cli_source_open(j->arguments, j->arguments->operands[i], &parts);
+        code = cli_source_open(j->args, j->args->operands[i], &parts);
         for (size_t w = 0; !code && parts.is_pattern && w < (j->n_warps ? j->n_warps : 1); w++) {
             j->warp = j->warps[w];
             code = measuring_check_dim(j, parts.dim);
@@ -200,7 +210,7 @@ static int measure_source(measuring *j, const char *source)
         return measuring_trials(j, source);
     }
     cli_work_unknown(&j->work, "points");
-    int code = cli_source_points(j->arguments, source, j->seed, &j->work.run, &points);
+    int code = cli_source_points(j->args, source, j->seed, &j->work.run, &points);
     code = code ? code : measuring_check_dim(j, points.dim);
     if (code) {
         koksma_points_fini(&points);
@@ -216,33 +226,33 @@ static int measure_source(measuring *j, const char *source)
     }
     koksma_points_fini(&points);
     cli_work_end();
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
+    return status ? cli_fail(j->args, status) : CLI_YES;
 }
 
 /* Reads --prefixes, which is "powers" or a list of numbers, or --sizes, a list of numbers. Returns false after an
    error. */
 static bool parse_prefixes(measuring *j)
 {
-    const char *sizes = cli_text(j->arguments, "sizes", NULL), *prefixes = cli_text(j->arguments, "prefixes", NULL),
+    const char *sizes = cli_text(j->args, "sizes", NULL), *prefixes = cli_text(j->args, "prefixes", NULL),
                *text = sizes ? sizes : prefixes, *option = sizes ? "sizes" : "prefixes";
     if (sizes && prefixes) {
-        cli_usage_error(j->arguments, "--sizes and --prefixes exclude each other");
-        return false;
+        return !cli_error(j->args, "--sizes and --prefixes exclude each other");
     }
     j->own_sets = sizes;
+    j->by_size = text;
     j->powers = prefixes && !strcmp(prefixes, "powers");
     return !text || j->powers ||
-           cli_sizes(j->arguments, option, text, sizes ? "" : "powers, or ", KOKSMA_MAX_COORDINATES, j->prefixes,
+           cli_sizes(j->args, option, text, sizes ? "" : "powers, or ", KOKSMA_MAX_COORDINATES, j->prefixes,
                      &j->n_prefixes);
 }
 
 /* Reads --warp W,W.. and checks that all warps have the same domain. Returns false after an error. */
 static bool parse_warps(measuring *j)
 {
-    const char *list = cli_text(j->arguments, "warp", NULL);
+    const char *list = cli_text(j->args, "warp", NULL);
     char item[KOKSMA_MAX_SPEC];
     while (list && j->n_warps < MAX_WARPS && cli_list_item(list, j->n_warps, item, sizeof item)) {
-        const koksma_warp *warp = cli_find_warp(j->arguments, item);
+        const koksma_warp *warp = cli_find_warp(j->args, item);
         if (!warp) {
             return false;
         }
@@ -251,9 +261,8 @@ static bool parse_warps(measuring *j)
     j->warp = j->warps[0];
     for (size_t i = 1; i < j->n_warps; i++) {
         if (j->warps[i]->domain != j->warp->domain) {
-            cli_usage_error(j->arguments, "--warp %s: its domain differs from that of %s", j->warps[i]->name,
-                            j->warp->name);
-            return false;
+            return !cli_error(j->args, "--warp %s: its domain differs from that of %s", j->warps[i]->name,
+                              j->warp->name);
         }
     }
     return true;
@@ -262,11 +271,10 @@ static bool parse_warps(measuring *j)
 /* Returns false, after an error, if the list of an option has more than `most` items. */
 static bool check_list(const measuring *j, const char *option, size_t most)
 {
-    const char *list = cli_text(j->arguments, option, NULL);
+    const char *list = cli_text(j->args, option, NULL);
     char item[KOKSMA_MAX_SPEC];
     if (list && cli_list_item(list, most, item, sizeof item)) {
-        cli_usage_error(j->arguments, "--%s: it takes up to %zu", option, most);
-        return false;
+        return !cli_error(j->args, "--%s: it takes up to %zu", option, most);
     }
     return true;
 }
@@ -275,12 +283,12 @@ static bool check_list(const measuring *j, const char *option, size_t most)
 static bool has_files_beside_patterns(const measuring *j)
 {
     int files = 0, patterns = 0;
-    for (int i = 0; i < j->arguments->n_operands; i++) {
-        const bool pattern = cli_source_is_pattern(j->arguments->operands[i]);
+    for (int i = 0; i < j->args->n_operands; i++) {
+        const bool pattern = cli_source_is_pattern(j->args->operands[i]);
         patterns += pattern;
-        files += !pattern && !access(j->arguments->operands[i], R_OK);
+        files += !pattern && !access(j->args->operands[i], R_OK);
     }
-    return files && patterns && files + patterns == j->arguments->n_operands;
+    return files && patterns && files + patterns == j->args->n_operands;
 }
 
 static bool parse_options(measuring *j)
@@ -288,18 +296,16 @@ static bool parse_options(measuring *j)
     if (!check_list(j, "measures", MAX_MEASURES) || !check_list(j, "warp", MAX_WARPS)) {
         return false;
     }
-    j->paired = cli_flag(j->arguments, "paired");
-    if (!parse_warps(j) || !cli_trials(j->arguments, 1, 1000000000, &j->seed, &j->trials) ||
-        !cli_real(j->arguments, "time-limit", 0, 0, 1e9, &j->time_limit_s) || !parse_prefixes(j) ||
-        !measuring_check_prefixes(j) ||
-        !cli_sources_check(j->arguments, 0, !j->paired && has_files_beside_patterns(j) ? 1 : j->trials, j->n_warps)) {
+    j->paired = cli_flag(j->args, "paired");
+    if (!parse_warps(j) || !cli_trials(j->args, 1, 1000000000, &j->seed, &j->trials) ||
+        !cli_real(j->args, "time-limit", 0, 0, 1e9, &j->time_limit_s) || !parse_prefixes(j) || !check_prefixes(j) ||
+        !cli_sources_check(j->args, 0, !j->paired && has_files_beside_patterns(j) ? 1 : j->trials, j->n_warps)) {
         return false;
     }
-    const size_t contestants = (size_t)j->arguments->n_operands * (j->n_warps ? j->n_warps : 1);
+    const size_t contestants = (size_t)j->args->n_operands * (j->n_warps ? j->n_warps : 1);
     if (j->paired && (j->trials < 2 || j->trials > MAX_PAIRED_TRIALS || contestants < 2)) {
-        cli_usage_error(j->arguments, "--paired: it takes --trials from 2 to %d, and at least two sources or warps",
-                        MAX_PAIRED_TRIALS);
-        return false;
+        return !cli_error(j->args, "--paired: it takes --trials from 2 to %d, and at least two sources or warps",
+                          MAX_PAIRED_TRIALS);
     }
     return true;
 }
@@ -343,39 +349,82 @@ static koksma_status choose_measures(measuring *j, const char *list)
     return KOKSMA_OK;
 }
 
-static int run(const cli_arguments *arguments)
+/* `koksma measure --at X,Y..`: the local discrepancy at a corner, which is the fraction of the points in the box from
+   the origin to that corner, minus the volume of the box. */
+
+enum { MAX_CORNER = 64 };
+
+static int measure_local(const cli_args *args)
 {
-    measuring j = {.arguments = arguments};
-    if (arguments->n_operands == 0) {
-        return cli_usage_error(arguments, "it takes files of points, - for stdin, or SPEC@N");
+    double corner[MAX_CORNER], value;
+    const char *list = cli_text(args, "at", "");
+    const int dim = (int)cli_reals(list, 0, 1, corner, MAX_CORNER);
+    if (!dim) {
+        return cli_error(args, "--at %s: it takes the coordinates of a corner in [0,1], such as 0.3,0.7", list);
     }
-    if (cli_text(arguments, "at", NULL)) {
-        return measure_local(arguments);
-    }
-    if (!parse_options(&j) || !cli_work_begin(arguments, "measuring", &j.work)) {
+    uint64_t seed;
+    cli_work work;
+    if (!cli_refuse(args, "measures trials prefixes sizes warp paired time-limit",
+                    "has no effect with --at, which prints only the local discrepancy of the points as they are") ||
+        !cli_whole(args, "seed", 0, 0, UINT64_MAX, &seed) || !cli_work_begin(args, "measuring", &work)) {
         return CLI_USAGE;
     }
-    j.by_default = !cli_text(arguments, "measures", NULL);
-    const char *list = cli_text(arguments, "measures", default_measures(&j));
+    int code = CLI_YES;
+    for (int i = 0; i < args->n_operands && !code; i++) {
+        koksma_points points = {0};
+        code = cli_source_points(args, args->operands[i], seed, &work.run, &points);
+        if (!code && points.dim != dim) {
+            code = cli_error(args, "%s: the points have %d dimensions, but --at %s has %d", args->operands[i],
+                             points.dim, list, dim);
+        }
+        const koksma_status status = code ? KOKSMA_OK : koksma_local_discrepancy(&points, corner, &value);
+        code = status ? cli_fail(args, status) : code;
+        if (!code) {
+            cli_row("source %s n %zu dim %d at %s local_discrepancy %g\n", args->operands[i], points.n, points.dim,
+                    list, value);
+        }
+        koksma_points_fini(&points);
+    }
+    cli_work_end();
+    return cli_rows_close(code);
+}
+
+static int run(const cli_args *args)
+{
+    measuring j = {.args = args};
+    if (args->n_operands == 0) {
+        return cli_error(args, "it takes files of points, - for stdin, or SPEC@N");
+    }
+    if (cli_text(args, "at", NULL)) {
+        return measure_local(args);
+    }
+    if (!parse_options(&j) || !cli_work_begin(args, "measuring", &j.work)) {
+        return CLI_USAGE;
+    }
+    j.by_default = !cli_text(args, "measures", NULL);
+    const char *list = cli_text(args, "measures", default_measures(&j));
     if (!list) {
-        return cli_usage_error(arguments, "--warp %s: no measure is known on its domain; generate and plot take it",
-                               j.warp->name);
+        return cli_error(args, "--warp %s: no measure is known on its domain; generate and plot take it",
+                         j.warp->name);
     }
     const koksma_status status = choose_measures(&j, list);
     if (status) {
-        return cli_fail(arguments, status);
+        return cli_fail(args, status);
     }
     choose_columns(&j);
-    j.rows = cli_rows_open(cli_flag(arguments, "json"));
     int code = measuring_open(&j) ? check_patterns(&j) : cli_no_memory();
-    for (int i = 0; !code && i < arguments->n_operands; i++) {
+    for (int i = 0; !code && i < args->n_operands; i++) {
         for (size_t w = 0; !code && w < (j.n_warps ? j.n_warps : 1); w++) {
             j.warp = j.warps[w];
-            code = measure_source(&j, arguments->operands[i]);
+            code = measure_source(&j, args->operands[i]);
         }
     }
-    code = cli_rows_close(j.rows, code);
-    tell_cuts(&j);
+    code = cli_rows_close(code);
+    for (size_t m = 0; j.fits && m < j.n_measures; m++) {
+        char text[KOKSMA_MAX_SPEC];
+        koksma_spec_text(&j.measures[m], text);
+        cli_tell_cuts(args, text, j.fits[m].n_cut);
+    }
     measuring_close(&j);
     return code;
 }

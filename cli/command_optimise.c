@@ -3,6 +3,7 @@
    after each improvement, or at the end to a stream, where sets would follow each other. */
 #include <koksma/spectrum.h>
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +16,7 @@
 enum { MOST_PROJECTIONS = 4096 };
 
 typedef struct job {
-    const cli_arguments *arguments;
+    const cli_args *args;
     const koksma_spec *measure;
     cli_work work;
     koksma_optimise_options options;
@@ -39,7 +40,7 @@ static koksma_status write_best(const job *j, const koksma_optimum *best)
     snprintf(comment, sizeof comment, "optimised for %s\nvalue %.17g\nseed %llu\nsteps %llu%s\nkoksma %s", j->name,
              best->value, (unsigned long long)j->options.seed, (unsigned long long)best->last_gain,
              partial ? ", the last not completed: --steps does not give this set" : "", koksma_version());
-    const char *path = cli_text(j->arguments, "output", NULL);
+    const char *path = cli_text(j->args, "output", NULL);
     return j->options.keep == KOKSMA_KEEP_SEQUENCE ? koksma_net_write(path, &best->points, comment)
                                                    : koksma_points_write(path, &best->points, comment, NULL);
 }
@@ -60,28 +61,20 @@ static bool progress(void *context, const koksma_optimum *best)
     }
     snprintf(j->line, sizeof j->line, "%s %.10g%s, last gain %.0f s ago, step %llu,", j->name, best->value, bound,
              now_s - j->gained_s, (unsigned long long)best->steps);
-    const char *steps = cli_text(j->arguments, "steps", NULL);
+    const char *steps = cli_text(j->args, "steps", NULL);
     return !j->written && (!steps || best->steps < j->options.steps);
 }
 
 static int report(job *j, const koksma_optimum *best)
 {
-    cli_rows *rows = cli_rows_open(cli_flag(j->arguments, "json"));
-    cli_row_text(rows, "measure", j->name);
-    cli_row_whole(rows, "n", best->points.n);
-    cli_row_whole(rows, "dim", (uint64_t)best->points.dim);
-    cli_row_number(rows, "value", best->value);
+    cli_row("measure %s n %zu dim %d value %g", j->name, best->points.n, best->points.dim, best->value);
     if (j->options.keep >= KOKSMA_KEEP_SEQUENCE) {
-        cli_row_number(rows, "first", j->first);
+        cli_row("first %g", j->first);
     }
-    cli_row_number(rows, "lower", best->lower);
-    cli_row_text(rows, "method", best->method);
-    cli_row_whole(rows, "seed", j->options.seed);
-    cli_row_whole(rows, "steps", best->steps);
-    cli_row_whole(rows, "last_gain", best->last_gain);
-    cli_row_text(rows, "version", koksma_version());
-    cli_row_end(rows);
-    return cli_rows_close(rows, CLI_YES);
+    cli_row("lower %g method %s seed %llu steps %llu last_gain %llu version %s\n", best->lower, best->method,
+            (unsigned long long)j->options.seed, (unsigned long long)best->steps, (unsigned long long)best->last_gain,
+            koksma_version());
+    return cli_rows_close(CLI_YES);
 }
 
 /* Whether a file has generator matrices, as --keep sequence writes them: it then is a pattern. `source` has the number
@@ -112,28 +105,27 @@ static bool is_net(const char *path, cli_source *source)
 /* Makes the initial set by a pattern, which may give the number of points and dimensions. Returns the exit code. */
 static int generate_first(job *j, const cli_source *source, bool counted, koksma_points *from)
 {
-    const char *text = cli_text(j->arguments, "from", NULL);
-    const bool dim_given = cli_text(j->arguments, "dim", NULL) != NULL;
+    const char *text = cli_text(j->args, "from", NULL);
+    const bool dim_given = cli_text(j->args, "dim", NULL) != NULL;
     if (!source->n && !counted) {
-        return cli_usage_error(j->arguments, "-n N, the number of points, is missing");
+        return cli_error(j->args, "-n N, the number of points, is missing");
     }
     if (source->n && ((counted && source->n != j->options.n) || (dim_given && source->dim != j->options.dim))) {
-        return cli_usage_error(j->arguments, "--from %s: its number of points or dimensions differs from -n or -d",
-                               text);
+        return cli_error(j->args, "--from %s: its number of points or dimensions differs from -n or -d", text);
     }
     j->options.n = source->n ? source->n : j->options.n;
     j->options.dim = source->n ? source->dim : j->options.dim;
     koksma_status status = koksma_points_init(from, j->options.n, j->options.dim);
     status = status ? status : koksma_generate(&source->spec, j->options.seed, &j->work.run, from);
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
+    return status ? cli_fail(j->args, status) : CLI_YES;
 }
 
 /* Reads --from: a file, or a pattern, which may give the number of points as @N. counted: whether -n gives
    that number. Returns the exit code. */
 static int first_set(job *j, bool counted, koksma_points *from)
 {
-    const char *text = cli_text(j->arguments, "from", NULL);
-    const bool dim_given = cli_text(j->arguments, "dim", NULL) != NULL;
+    const char *text = cli_text(j->args, "from", NULL);
+    const bool dim_given = cli_text(j->args, "dim", NULL) != NULL;
     if (!text) {
         return CLI_YES;
     }
@@ -141,7 +133,7 @@ static int first_set(job *j, bool counted, koksma_points *from)
     const bool is_pattern = cli_source_is_pattern(text) || cli_names_pattern(text);
     cli_source source;
     if (is_pattern) {
-        const int code = cli_pattern_open(j->arguments, text, &source);
+        const int code = cli_pattern_open(j->args, text, &source);
         return code ? code : generate_first(j, &source, counted, from);
     }
     if (is_net(text, &source)) { /* its first N points in its first DIM dimensions */
@@ -152,11 +144,11 @@ static int first_set(job *j, bool counted, koksma_points *from)
     }
     const koksma_status status = koksma_points_read(text, from);
     if (status) {
-        return cli_fail(j->arguments, status);
+        return cli_fail(j->args, status);
     }
     if ((counted && from->n != j->options.n) || (dim_given && from->dim != j->options.dim)) {
-        return cli_usage_error(j->arguments, "--from %s: it has %zu points of dim = %d, which differs from -n or -d",
-                               text, from->n, from->dim);
+        return cli_error(j->args, "--from %s: it has %zu points of dim = %d, which differs from -n or -d", text,
+                         from->n, from->dim);
     }
     j->options.n = from->n;
     j->options.dim = from->dim;
@@ -166,28 +158,21 @@ static int first_set(job *j, bool counted, koksma_points *from)
 /* Reads --weights W,..: one weight for each projection. Returns false after an error. */
 static bool parse_weights(job *j)
 {
-    const char *text = cli_text(j->arguments, "weights", NULL);
-    char item[64];
-    size_t n = 0;
-    for (; text && n < MOST_PROJECTIONS && cli_list_item(text, n, item, sizeof item); n++) {
-        char *end;
-        j->weights[n] = strtod(item, &end);
-        if (end == item || *end || !(j->weights[n] > 0)) {
-            cli_usage_error(j->arguments, "--weights %s: it takes numbers above 0, such as 1,1,4", text);
-            return false;
-        }
+    const char *text = cli_text(j->args, "weights", NULL);
+    if (!text) {
+        return true;
     }
-    if (text && !j->options.n_projections) {
-        cli_usage_error(j->arguments, "--weights has an effect only with --projections");
-        return false;
+    const size_t n = cli_reals(text, DBL_MIN, DBL_MAX, j->weights, MOST_PROJECTIONS);
+    j->options.weights = j->weights;
+    if (!n) {
+        return !cli_error(j->args, "--weights %s: it takes numbers above 0, such as 1,1,4", text);
     }
-    if (text && n != j->options.n_projections) {
-        cli_usage_error(j->arguments, "--weights %s: it takes one weight for each of the %zu --projections", text,
-                        j->options.n_projections);
-        return false;
+    if (!j->options.n_projections) {
+        return cli_refuse(j->args, "weights", "has an effect only with --projections");
     }
-    j->options.weights = text ? j->weights : NULL;
-    return true;
+    return n == j->options.n_projections ||
+           !cli_error(j->args, "--weights %s: it takes one weight for each of the %zu --projections", text,
+                      j->options.n_projections);
 }
 
 /* Returns false, after an error, if two projections are equal: one that counts twice has the weight 2. */
@@ -196,8 +181,7 @@ static bool check_different(const job *j, const char *text)
     for (size_t p = 1; p < j->options.n_projections; p++) {
         for (size_t q = 0; q < p; q++) {
             if (j->projections[p] == j->projections[q]) {
-                cli_usage_error(j->arguments, "--projections %s: groups %zu and %zu are equal", text, q + 1, p + 1);
-                return false;
+                return !cli_error(j->args, "--projections %s: groups %zu and %zu are equal", text, q + 1, p + 1);
             }
         }
     }
@@ -208,13 +192,12 @@ static bool check_different(const job *j, const char *text)
    error. */
 static bool parse_projections(job *j)
 {
-    const char *text = cli_text(j->arguments, "projections", NULL), *at = text;
+    const char *text = cli_text(j->args, "projections", NULL), *at = text;
     koksma_optimise_options *o = &j->options;
     o->projections = j->projections;
     if (text && !strcmp(text, "pairs")) {
         if (o->dim < 2) {
-            cli_usage_error(j->arguments, "--projections pairs: it needs 2 or more dimensions, not %d", o->dim);
-            return false;
+            return !cli_error(j->args, "--projections pairs: it needs 2 or more dimensions, not %d", o->dim);
         }
         for (int k = 0; k < o->dim && k < 64; k++) {
             for (int l = 0; l < k; l++) {
@@ -228,13 +211,11 @@ static bool parse_projections(job *j)
         const unsigned long k = *at >= '0' && *at <= '9' ? strtoul(at, &end, 10) : 64;
         const bool one = k < 64 && (*end == '+' || *end == ',' || !*end) && (!*end || end[1]);
         if (!one || o->n_projections == MOST_PROJECTIONS) {
-            cli_usage_error(j->arguments,
-                            "--projections %s: it takes pairs, or coordinates from 0 on, such as 0+1,0+2", text);
-            return false;
+            return !cli_error(j->args, "--projections %s: it takes pairs, or coordinates from 0 on, such as 0+1,0+2",
+                              text);
         }
         if (j->projections[o->n_projections] >> k & 1) {
-            cli_usage_error(j->arguments, "--projections %s: a group has coordinate %lu twice", text, k);
-            return false;
+            return !cli_error(j->args, "--projections %s: a group has coordinate %lu twice", text, k);
         }
         j->projections[o->n_projections] |= UINT64_C(1) << k;
         o->n_projections += *end != '+';
@@ -245,35 +226,33 @@ static bool parse_projections(job *j)
 
 static bool parse(job *j)
 {
-    const cli_arguments *arguments = j->arguments;
+    const cli_args *args = j->args;
     uint64_t n, dim;
     int keep = KOKSMA_KEEP_NONE; /* the option's argument lists them in the order of koksma_keep */
-    if (!cli_choice(arguments, "keep", &keep) || !cli_whole(arguments, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
-        !cli_whole(arguments, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
-        !cli_whole(arguments, "seed", 0, 0, UINT64_MAX, &j->options.seed) ||
-        !cli_whole(arguments, "steps", 0, 0, UINT64_MAX, &j->options.steps) ||
-        !cli_work_begin(arguments, "optimising", &j->work)) {
+    if (!cli_choice(args, "keep", &keep) || !cli_whole(args, "n", 0, 1, KOKSMA_MAX_COORDINATES, &n) ||
+        !cli_whole(args, "dim", 2, 1, KOKSMA_MAX_DIM, &dim) ||
+        !cli_whole(args, "seed", 0, 0, UINT64_MAX, &j->options.seed) ||
+        !cli_whole(args, "steps", 0, 0, UINT64_MAX, &j->options.steps) ||
+        !cli_work_begin(args, "optimising", &j->work)) {
         return false;
     }
     j->options.n = n;
     j->options.dim = (int)dim;
     j->options.keep = (koksma_keep)keep;
-    return cli_real(arguments, "time-limit", cli_text(arguments, "steps", NULL) ? 0 : 60, 0, 1e9,
-                    &j->work.run.time_limit_s);
+    return cli_real(args, "time-limit", cli_text(args, "steps", NULL) ? 0 : 60, 0, 1e9, &j->work.run.time_limit_s);
 }
 
 /* Reads --power, whose frequencies end at --band times the root of the number of points. Returns the exit code. */
 static int target(job *j)
 {
-    const char *text = cli_text(j->arguments, "power", NULL);
+    const char *text = cli_text(j->args, "power", NULL);
     double band;
-    if (!cli_real(j->arguments, "band", 2, 0.1, 64, &band)) {
+    if (!cli_real(j->args, "band", 2, 0.1, 64, &band)) {
         return CLI_USAGE;
     }
     if (!text) {
-        return cli_text(j->arguments, "band", NULL)
-                   ? cli_usage_error(j->arguments, "--band has an effect only with --power")
-                   : CLI_YES;
+        return cli_text(j->args, "band", NULL) ? cli_error(j->args, "--band has an effect only with --power")
+                                               : CLI_YES;
     }
     j->options.rings = (int)ceil(fmin(band * sqrt((double)j->options.n), KOKSMA_SPECTRUM_MAX_HALF));
     j->power = malloc((size_t)j->options.rings * sizeof *j->power);
@@ -282,61 +261,53 @@ static int target(job *j)
         return cli_no_memory();
     }
     const koksma_status status = koksma_radial_power(text, j->options.n, j->options.rings, &j->work.run, j->power);
-    return status ? cli_fail(j->arguments, status) : CLI_YES;
+    return status ? cli_fail(j->args, status) : CLI_YES;
 }
 
-/* Returns false, after an error, if the name of the file promises a format that generator matrices do not have. */
-static bool check_format(const cli_arguments *arguments, const char *output)
+/* Checks what the command line has. Returns false after an error. */
+static bool check_arguments(const cli_args *args)
 {
+    const char *power = cli_text(args, "power", NULL), *output = cli_text(args, "output", NULL);
+    if (args->n_operands != !power) {
+        char known[CLI_KNOWN] = "";
+        const bool more = !power && args->n_operands > 1;
+        return !cli_error(args,
+                          power ? "it takes a measure or --power, not both%s"
+                                : "it takes one measure, such as star or l2-disk:r=0.25%s",
+                          more ? cli_operand_hint(args, args->operands[1], known) : "");
+    }
+    if (!output) {
+        return !cli_error(args, "-o FILE, the file for the best set, is missing");
+    }
     const char *end = strrchr(output, '.');
-    if (!strcmp(cli_text(arguments, "keep", "none"), "sequence") && end &&
-        (!strcmp(end, ".npy") || !strcmp(end, ".csv"))) {
-        cli_usage_error(arguments,
-                        "-o %s: --keep sequence writes generator matrices, for net-file:FILE, as .txt only", output);
-        return false;
+    if (!strcmp(cli_text(args, "keep", "none"), "sequence") && end && cli_has_word(".npy .csv", end)) {
+        return !cli_error(args, "-o %s: --keep sequence writes generator matrices, for net-file:FILE, as .txt only",
+                          output);
+    }
+    if (cli_flag(args, "json") && cli_is_stdout(output)) {
+        return !cli_error(args, "--json: it excludes -o %s, which writes the points to standard output", output);
     }
     return true;
 }
 
-/* Checks what the command line has. Returns false after an error. */
-static bool check_arguments(const cli_arguments *arguments)
-{
-    const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
-    if (arguments->n_operands != !power) {
-        char known[CLI_KNOWN] = "";
-        const bool more = !power && arguments->n_operands > 1;
-        cli_usage_error(arguments,
-                        power ? "it takes a measure or --power, not both%s"
-                              : "it takes one measure, such as star or l2-disk:r=0.25%s",
-                        more ? cli_operand_hint(arguments, arguments->operands[1], known) : "");
-        return false;
-    }
-    if (!output) {
-        cli_usage_error(arguments, "-o FILE, the file for the best set, is missing");
-        return false;
-    }
-    return cli_check_output(arguments, output) && check_format(arguments, output);
-}
-
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     koksma_spec measure;
     koksma_points from = {0};
     koksma_optimum best = {0};
-    job j = {
-        .arguments = arguments, .measure = &measure, .first = NAN, .options = {.progress = progress, .context = &j}};
-    const char *power = cli_text(arguments, "power", NULL), *output = cli_text(arguments, "output", NULL);
-    if (!check_arguments(arguments)) {
+    job j = {.args = args, .measure = &measure, .first = NAN, .options = {.progress = progress, .context = &j}};
+    const char *power = cli_text(args, "power", NULL), *output = cli_text(args, "output", NULL);
+    if (!check_arguments(args)) {
         return CLI_USAGE;
     }
     j.stream = cli_is_stream(output);
-    koksma_status status = power ? KOKSMA_OK : koksma_measure_spec(arguments->operands[0], &measure);
+    koksma_status status = power ? KOKSMA_OK : koksma_measure_spec(args->operands[0], &measure);
     if (status) {
-        return cli_fail(arguments, status);
+        return cli_fail(args, status);
     }
-    const bool counted = cli_text(arguments, "n", NULL), given = cli_text(arguments, "from", NULL);
+    const bool counted = cli_text(args, "n", NULL), given = cli_text(args, "from", NULL);
     if (!counted && !given) {
-        return cli_usage_error(arguments, "-n N, the number of points, is missing");
+        return cli_error(args, "-n N, the number of points, is missing");
     }
     if (power) {
         snprintf(j.name, sizeof j.name, "power %s", power);
@@ -360,7 +331,7 @@ static int run(const cli_arguments *arguments)
         if (best.points.n && !j.written && !cli_is_stdout(output)) {
             code = report(&j, &best);
         }
-        code = status ? cli_fail(arguments, status) : code;
+        code = status ? cli_fail(args, status) : code;
     }
     koksma_optimum_fini(&best);
     koksma_points_fini(&from);

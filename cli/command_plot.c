@@ -12,69 +12,66 @@
    one set, beside means over several sets of a pattern. */
 static uint64_t trials_of_all(const cli_curves *c)
 {
-    const cli_arguments *arguments = c->arguments;
+    const cli_args *args = c->args;
     bool has_pattern = false;
-    for (int i = 0; i < arguments->n_operands; i++) {
-        has_pattern = has_pattern || cli_source_is_pattern(arguments->operands[i]);
+    for (int i = 0; i < args->n_operands; i++) {
+        has_pattern = has_pattern || cli_source_is_pattern(args->operands[i]);
     }
     return has_pattern && c->curve->plot.mixes_files ? 1 : c->trials;
 }
 
 /* Reads --size W[xH] and --theme. Returns false after an error. */
-static bool choose_looks(const cli_arguments *arguments, cli_curves *c)
+static bool choose_looks(const cli_args *args, cli_curves *c)
 {
-    const char *size = cli_text(arguments, "size", NULL);
+    const char *size = cli_text(args, "size", NULL);
     int width = 0, height = 0, used = 0, dark = 0;
     const int n = size ? sscanf(size, "%5d%nx%5d%n", &width, &used, &height, &used) : 0;
     if (size && (n < 1 || size[used] || width < 16 || width > 8192 || (n > 1 && (height < 16 || height > 8192)))) {
-        cli_usage_error(arguments, "--size %s: it takes W, or WxH, of 16 to 8192", size);
-        return false;
+        return !cli_error(args, "--size %s: it takes W, or WxH, of 16 to 8192", size);
     }
     c->width = width;
     c->height = height;
-    const bool known = cli_choice(arguments, "theme", &dark);
+    const bool known = cli_choice(args, "theme", &dark);
     c->dark = dark;
     return known;
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     cli_curves c;
-    char names[256];
-    const bool compare = cli_flag(arguments, "compare");
-    const char *name = cli_text(arguments, "curve", compare ? cli_curve_compare.name : cli_curve_points.name);
+    char names[256], what[80];
+    const bool compare = cli_flag(args, "compare");
+    const char *name = cli_text(args, "curve", compare ? cli_curve_compare.name : cli_curve_points.name);
     if (compare && strcmp(name, cli_curve_compare.name) != 0) {
-        return cli_usage_error(arguments,
-                               "--compare excludes --curve %s, because --compare draws a fixed set of charts", name);
+        return cli_error(args, "--compare excludes --curve %s, because --compare draws a fixed set of charts", name);
     }
     const cli_curve *curve = cli_curve_find(CLI_DRAWN, name);
-    if (arguments->n_operands < 1 || !cli_text(arguments, "output", NULL)) {
+    if (args->n_operands < 1 || !cli_text(args, "output", NULL)) {
         return curve && curve->plot.of_filters
-                   ? cli_usage_error(
-                         arguments,
-                         "--curve %s takes names of filters and a picture, as in box mitchell -o filters.svg", name)
-                   : cli_usage_error(arguments, "it takes points and a picture, as in points.txt -o points.svg");
+                   ? cli_error(args,
+                               "--curve %s takes names of filters and a picture, as in box mitchell -o filters.svg",
+                               name)
+                   : cli_error(args, "it takes points and a picture, as in points.txt -o points.svg");
     }
-    if (arguments->n_operands > CLI_MAX_PANELS) {
-        return cli_usage_error(arguments, "%d sets of points: a picture has up to %d", arguments->n_operands,
-                               CLI_MAX_PANELS);
+    if (args->n_operands > CLI_MAX_PANELS) {
+        return cli_error(args, "%d sets of points: a picture has up to %d", args->n_operands, CLI_MAX_PANELS);
     }
     if (!curve) {
         cli_curve_names(CLI_DRAWN, NULL, ", ", " or ", names, sizeof names);
-        char meant[96];
-        return cli_usage_error(arguments, "--curve %s: %sit takes %s", name, cli_meant_of(name, names, meant), names);
+        snprintf(what, sizeof what, "--curve %.60s: ", name);
+        return cli_takes(args, what, name, names);
     }
-    if (!cli_curves_begin(arguments, curve, CLI_DRAWN, "--curve ", &c) || !choose_looks(arguments, &c) ||
-        (!curve->plot.of_filters && !cli_sources_check(arguments, 0, trials_of_all(&c), 0))) {
+    if (!cli_curves_begin(args, curve, CLI_DRAWN, "--curve ", &c) || !choose_looks(args, &c) ||
+        (!curve->plot.of_filters && !cli_sources_check(args, 0, trials_of_all(&c), 0))) {
         return CLI_USAGE;
     }
-    c.witness = cli_text(arguments, "witness", NULL);
-    const char *warp = cli_text(arguments, "warp", NULL);
-    if (warp && !(c.warp = cli_find_warp(arguments, warp))) {
+    c.witness = cli_text(args, "witness", NULL);
+    const char *warp = cli_text(args, "warp", NULL);
+    if (warp && !(c.warp = cli_find_warp(args, warp))) {
         return CLI_USAGE;
     }
     const koksma_status status = koksma_plot_format_of(c.output, &c.format);
-    const int code = status ? cli_fail(arguments, status) : cli_try_output(arguments, c.output);
+    const int code = status ? cli_fail(args, status) : cli_try_output(args, c.output);
     return code ? code : curve->plot.draw(&c);
 }
 

@@ -17,7 +17,7 @@
 enum { MAX_PLANS = 16 };
 
 /* Prints table `id` of the plan: our numbers and the published numbers. */
-static koksma_status put_table(koksma_study *study, const char *id, cli_rows *rows)
+static koksma_status put_table(koksma_study *study, const char *id)
 {
     koksma_study_row row;
     bool found = true;
@@ -26,31 +26,21 @@ static koksma_status put_table(koksma_study *study, const char *id, cli_rows *ro
         if (status || !found) {
             return status;
         }
-        cli_row_text(rows, "table", id);
-        cli_row_text(rows, "pattern", row.pattern);
-        cli_row_whole(rows, "n", (uint64_t)row.n);
-        cli_row_number(rows, "published", row.published[0]);
-        cli_row_number(rows, "mean", row.mean);
-        cli_row_number(rows, "low", row.low);
-        cli_row_number(rows, "high", row.high);
-        cli_row_number(rows, "converged", row.converged);
-        cli_row_number(rows, "published_sd", row.published[1]);
-        cli_row_number(rows, "sd", row.sd);
-        cli_row_number(rows, "published_max", row.published[2]);
-        cli_row_number(rows, "max", row.max);
-        cli_row_whole(rows, "trials", row.trials);
-        cli_row_text(rows, "verdict", koksma_study_verdict_name(row.verdict));
-        cli_row_end(rows);
+        cli_row("table %s pattern %s n %lld published %g mean %g low %g high %g converged %g "
+                "published_sd %g sd %g published_max %g max %g trials %llu verdict %s\n",
+                id, row.pattern, row.n, row.published[0], row.mean, row.low, row.high, row.converged,
+                row.published[1], row.sd, row.published[2], row.max, (unsigned long long)row.trials,
+                koksma_study_verdict_name(row.verdict));
     }
     return KOKSMA_OK;
 }
 
 /* Checks that --table names a table of the plans, which are opened without a folder: a wrong command line makes none.
    What else is wrong with the plans is reported when they are opened to run. Returns the exit code. */
-static int check_table(const cli_arguments *arguments, const koksma_study_options *options)
+static int check_table(const cli_args *args, const koksma_study_options *options)
 {
     koksma_study_options without = *options;
-    const char *table = cli_text(arguments, "table", "none");
+    const char *table = cli_text(args, "table", "none");
     koksma_study *study = NULL;
     koksma_study_row row;
     bool found;
@@ -58,45 +48,45 @@ static int check_table(const cli_arguments *arguments, const koksma_study_option
     without.folder = NULL;
     if (strcmp(table, "none") != 0 && strcmp(table, "all") != 0 && !koksma_study_open(&without, &study) &&
         koksma_study_table_row(study, table, SIZE_MAX, &row, &found)) {
-        code = cli_usage_error(arguments, "%s", koksma_error_text());
+        code = cli_error(args, "%s", koksma_error_text());
     }
     koksma_study_close(study);
     return code;
 }
 
 /* Prints the tables that --table wants. */
-static koksma_status put_tables(const cli_arguments *arguments, koksma_study *study, void *rows)
+static koksma_status put_tables(const cli_args *args, koksma_study *study)
 {
-    const char *table = cli_text(arguments, "table", koksma_study_table_at(study, 0));
+    const char *table = cli_text(args, "table", koksma_study_table_at(study, 0));
     koksma_status status = KOKSMA_OK;
     if (!table || !strcmp(table, "none")) {
         return KOKSMA_OK;
     }
     if (strcmp(table, "all") != 0) {
-        return put_table(study, table, rows);
+        return put_table(study, table);
     }
     for (size_t i = 0; !status && koksma_study_table_at(study, i); i++) {
-        status = put_table(study, koksma_study_table_at(study, i), rows);
+        status = put_table(study, koksma_study_table_at(study, i));
     }
     return status;
 }
 
 /* Collects the plans of the operands. If both papers are given, it also adds the plan open-questions, which --papers-only
    leaves out. Returns the number of plans, or 0 after an error. */
-static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX_PLANS])
+static size_t choose_plans(const cli_args *args, const char *plans[MAX_PLANS])
 {
     bool shirley = false, mitchell = false, open = false;
     size_t n = 0;
-    for (int i = 0; i < arguments->n_operands; i++) {
-        plans[n++] = arguments->operands[i];
-        shirley |= !strcmp(arguments->operands[i], "shirley1991");
-        mitchell |= !strcmp(arguments->operands[i], "mitchell1992");
-        open |= !strcmp(arguments->operands[i], "open-questions");
+    for (int i = 0; i < args->n_operands; i++) {
+        plans[n++] = args->operands[i];
+        shirley |= !strcmp(args->operands[i], "shirley1991");
+        mitchell |= !strcmp(args->operands[i], "mitchell1992");
+        open |= !strcmp(args->operands[i], "open-questions");
     }
-    const bool both = shirley && mitchell && !open, papers_only = cli_flag(arguments, "papers-only");
+    const bool both = shirley && mitchell && !open, papers_only = cli_flag(args, "papers-only");
     if (papers_only && !both) {
-        cli_usage_error(arguments, "--papers-only has an effect only with both papers, shirley1991 mitchell1992, and "
-                                   "without open-questions");
+        cli_error(args, "--papers-only has an effect only with both papers, shirley1991 mitchell1992, and "
+                        "without open-questions");
         return 0;
     }
     if (both && !papers_only) {
@@ -105,18 +95,18 @@ static size_t choose_plans(const cli_arguments *arguments, const char *plans[MAX
     return n;
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     cli_work work;
     uint64_t trials;
-    const char *folder = cli_text(arguments, "output", NULL);
-    if (arguments->n_operands < 1 || arguments->n_operands >= MAX_PLANS || !folder) {
-        return cli_usage_error(arguments, "it takes a paper and a folder, as in shirley1991 -o DIR");
+    const char *folder = cli_text(args, "output", NULL);
+    if (args->n_operands < 1 || args->n_operands >= MAX_PLANS || !folder) {
+        return cli_error(args, "it takes a paper and a folder, as in shirley1991 -o DIR");
     }
     const char *plans[MAX_PLANS];
-    const size_t n_plans = choose_plans(arguments, plans);
-    if (!n_plans || !cli_whole(arguments, "trials", 0, 1, 100000000, &trials) ||
-        !cli_work_begin(arguments, "reproducing", &work)) {
+    const size_t n_plans = choose_plans(args, plans);
+    if (!n_plans || !cli_whole(args, "trials", 0, 1, 100000000, &trials) ||
+        !cli_work_begin(args, "reproducing", &work)) {
         return CLI_USAGE;
     }
     folder = koksma_study_mpi_rank() > 0 ? NULL : folder; /* under MPI only rank 0 keeps the results */
@@ -124,13 +114,12 @@ static int run(const cli_arguments *arguments)
                                           .n_plans = n_plans,
                                           .folder = folder,
                                           .trials = (long long)trials,
-                                          .quick = cli_flag(arguments, "quick")};
-    if (check_table(arguments, &options)) {
+                                          .quick = cli_flag(args, "quick")};
+    if (check_table(args, &options)) {
         return CLI_USAGE;
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
-    const int code = cli_study_run(arguments, &options, &work, put_tables, rows);
-    return cli_rows_close(rows, code);
+    const int code = cli_study_run(args, &options, &work, put_tables);
+    return cli_rows_close(code);
 }
 
 static const cli_option option_table[] = {

@@ -9,41 +9,34 @@
 #include "cli.h"
 #include "rendering.h"
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
     koksma_scene *scene;
-    if (arguments->n_operands != 2 || strcmp(arguments->operands[0], "check") != 0) {
-        return cli_usage_error(arguments, "it takes check and one scene, as in 'koksma scene check ball'");
+    if (args->n_operands != 2 || strcmp(args->operands[0], "check") != 0) {
+        return cli_error(args, "it takes check and one scene, as in 'koksma scene check ball'");
     }
-    koksma_status status = koksma_scene_open(arguments->operands[1], &scene);
+    koksma_status status = koksma_scene_open(args->operands[1], &scene);
     if (status) {
-        return cli_fail(arguments, status);
+        return cli_fail(args, status);
     }
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     const koksma_scene_counts counts = koksma_scene_count(scene);
-    const bool odd = cli_scene_warnings(arguments, arguments->operands[1], scene, NULL, SIZE_MAX) > 0;
+    const bool odd = cli_scene_warnings(args, args->operands[1], scene, NULL, SIZE_MAX) > 0;
     bool is_black = false;
     koksma_render_options options;
     koksma_render_options_init(&options, scene);
-    status =
-        odd && !counts.lights ? KOKSMA_OK : cli_look(arguments, arguments->operands[1], scene, &options, &is_black);
-    cli_row_text(rows, "scene", arguments->operands[1]);
-    cli_row_whole(rows, "shapes", counts.shapes);
-    cli_row_whole(rows, "meshes", counts.meshes);
-    cli_row_whole(rows, "placements", counts.placements);
-    cli_row_whole(rows, "triangles", counts.triangles);
-    cli_row_whole(rows, "materials", counts.materials);
-    cli_row_whole(rows, "lights", counts.lights);
-    cli_row_whole(rows, "media", counts.media);
+    status = odd && !counts.lights ? KOKSMA_OK : cli_look(args, args->operands[1], scene, &options, &is_black);
+    cli_row("scene %s shapes %zu meshes %zu placements %zu triangles %zu materials %zu lights %zu "
+            "media %zu",
+            args->operands[1], counts.shapes, counts.meshes, counts.placements, counts.triangles, counts.materials,
+            counts.lights, counts.media);
     if (counts.spp) {
-        cli_row_whole(rows, "spp", counts.spp);
+        cli_row("spp %zu\n", counts.spp);
     } else {
-        cli_row_json(rows, "spp", "null", "-");
+        cli_row("spp %s\n", (const char *)NULL);
     }
-    cli_row_end(rows);
     koksma_scene_close(scene);
-    const int code = cli_rows_close(rows, odd || is_black ? CLI_NO : CLI_YES);
-    return status ? cli_fail(arguments, status) : code;
+    const int code = cli_rows_close(odd || is_black ? CLI_NO : CLI_YES);
+    return status ? cli_fail(args, status) : code;
 }
 
 static const cli_option options[] = {CLI_UNKNOWN_OPTION, CLI_ROW_OPTIONS, {0}};

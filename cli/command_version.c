@@ -12,39 +12,24 @@
 
 #include "cli.h"
 
-/* Adds a column with the text `what` of an optional part, or null if the build has no such part. */
-static void put_part(cli_rows *rows, const char *key, const char *what)
-{
-    if (what) {
-        cli_row_text(rows, key, what);
-    } else {
-        cli_row_json(rows, key, "null", "-");
-    }
-}
-
 static int put_json(void)
 {
-    cli_rows *rows = cli_rows_open(true);
     const char *format, *left_out;
-    cli_row_text(rows, "version", koksma_version());
-    cli_row_text(rows, "kernels", koksma_instruction_set());
+    cli_row("version %s kernels %s", koksma_version(), koksma_instruction_set());
     for (size_t i = 0; (format = koksma_image_format(i, &left_out)); i++) {
-        cli_row_flag(rows, format, !left_out);
+        cli_row_json(format, left_out ? "false" : "true", "");
     }
-    put_part(rows, "plots", koksma_plot_library());
-    put_part(rows, "mpi", koksma_study_mpi());
-    put_part(rows, "meshes", koksma_mesh_tracer());
-    cli_row_end(rows);
-    return cli_rows_close(rows, CLI_YES);
+    cli_row("plots %s mpi %s meshes %s\n", koksma_plot_library(), koksma_study_mpi(), koksma_mesh_tracer());
+    return cli_rows_close(CLI_YES);
 }
 
-static int run(const cli_arguments *arguments)
+static int run(const cli_args *args)
 {
-    if (arguments->n_operands) {
-        return cli_usage_error(arguments, "it takes no operands");
+    if (args->n_operands) {
+        return cli_error(args, "it takes no operands");
     }
     const char *tracer = koksma_mesh_tracer();
-    if (cli_flag(arguments, "json")) {
+    if (cli_flag(args, "json")) {
         return put_json();
     }
     printf("koksma %s\n", koksma_version());

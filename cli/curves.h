@@ -2,7 +2,7 @@
 /*
  * The table of curves: measures whose values are functions, such as spectra, and pictures. A curve computes its rows
  * and passes them one by one to a sink: `koksma curve` prints the rows, `koksma plot` draws two of their columns in a
- * chart (charts.c). A curve that is not a chart, such as the points themselves, has its own drawing function.
+ * chart (curves.c). A curve that is not a chart, such as the points themselves, has its own drawing function.
  */
 #ifndef KOKSMA_CLI_CURVES_H
 #define KOKSMA_CLI_CURVES_H
@@ -18,7 +18,7 @@ typedef struct cli_curve cli_curve;
 
 /* The option values of a run of `koksma curve` or `koksma plot`. */
 typedef struct cli_curves {
-    const cli_arguments *arguments;
+    const cli_args *args;
     const cli_curve *curve;
     uint64_t seed, trials, half, bins;
     double r_max;
@@ -63,8 +63,8 @@ struct cli_curve {
         const char *x_label, *y_label; /* labels of a chart's axes; x_per_root: x is divided by sqrt(n) */
         int y, error;                  /* indices of the columns of y and of its error; error 0: no error bars */
         bool x_per_root;
-        double (*level)(const cli_curves *c); /* the value that random points have, drawn as a dashed line */
-        bool of_filters;                      /* the operands are names of pixel filters */
+        double level;    /* the value that random points have, drawn as a dashed line; 0: none; NaN: -10 log10 T */
+        bool of_filters; /* the operands are names of pixel filters */
         /* true: one chart may show a file, which is one set, and means over the sets of a pattern */
         bool mixes_files;
     } plot;
@@ -106,7 +106,7 @@ enum { CLI_DEFAULT_HALF = KOKSMA_SPECTRUM_MAX_HALF / 2 - 1 }; /* the largest def
 
 /* Reads CLI_CURVE_OPTIONS and CLI_RUN_OPTIONS. Returns false after an error, also for an option that has no effect on
    this curve. before: the text before a curve's name on the command line, for error messages. */
-bool cli_curves_begin(const cli_arguments *arguments, const cli_curve *curve, cli_curve_list list, const char *before,
+bool cli_curves_begin(const cli_args *args, const cli_curve *curve, cli_curve_list list, const char *before,
                       cli_curves *c);
 
 /* Computes the mean spectrum over the trials. The spectrum has frequencies up to --half; without this option up to
@@ -120,7 +120,7 @@ int cli_curves_each_set(cli_curves *c, const char *source,
                         koksma_status (*add)(cli_curves *c, const koksma_points *points, void *context),
                         void *context);
 
-/* ---- Charts and panels of `koksma plot` (charts.c) ---------------------------------------------------- */
+/* ---- Charts and panels of `koksma plot` (curves.c) ---------------------------------------------------- */
 
 enum { CLI_CHART_LABEL = 160 };
 
@@ -155,25 +155,11 @@ int cli_write_figure(const cli_curves *c, const char *title, const koksma_cell *
 int cli_write_chart(const cli_curves *c, const char *title, const koksma_chart *chart);
 int cli_draw_panels(const cli_curves *c, const char *title, const koksma_panel *panels, size_t n);
 
-/* Returns a source's text without "pattern:" at its beginning. */
-const char *cli_label(const char *source);
-
 /* Writes the title of a source to `text` and returns it: "SPEC, n = N" for a pattern, followed by ", d = DIM" above 2
    dimensions; the path for a file. */
 const char *cli_title(const char *source, char text[CLI_CHART_LABEL]);
 
 /* Chooses the colours of all operands: numbers[i] is the colour of operand i. */
 void cli_colours(const cli_curves *c, size_t numbers[CLI_MAX_PANELS]);
-
-/* ---- What the curves convergence and compare share (curves/curve_convergence.c) ----------------------- */
-
-typedef struct cli_convergence {
-    cli_chart_store store; /* the caller closes it, also after a failure */
-    char title[160], y_label[160];
-    koksma_chart chart;
-} cli_convergence;
-
-/* Evaluates --measure for all operands at --sizes and makes the chart. Returns the exit code. */
-int cli_convergence_open(cli_curves *c, cli_convergence *v);
 
 #endif

@@ -18,12 +18,6 @@ const cli_command *cli_command_at(size_t i)
     return commands[i] ? cli_expand(commands[i], i) : NULL;
 }
 
-const char *cli_command_name(const void *table, size_t i)
-{
-    (void)table;
-    return cli_command_at(i) ? cli_command_at(i)->name : NULL;
-}
-
 const cli_command *cli_command_find(const char *name)
 {
     for (size_t i = 0; commands[i]; i++) {
@@ -77,9 +71,9 @@ int main(int argc, char **argv)
 {
 #ifdef _WIN32
     int given = 0;
-    char **arguments = given_arguments(&given);
-    argc = arguments ? given : argc;
-    argv = arguments ? arguments : argv;
+    char **args = given_arguments(&given);
+    argc = args ? given : argc;
+    argv = args ? args : argv;
     SetConsoleOutputCP(CP_UTF8);
 #endif
     cli_begin_output();

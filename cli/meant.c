@@ -1,18 +1,27 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What a word that the program does not know probably means: the nearest name of a table or list, the option that has
-   the meaning of one of other programs, or a name or file that belongs elsewhere. */
+   the meaning of one of other programs, or a name or file that belongs elsewhere; and the messages that
+   say so. */
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <koksma/adaptive.h>
+#include <koksma/estimate.h>
 #include <koksma/integrate.h>
 #include <koksma/render.h>
+#include <koksma/study.h>
+#include <koksma/verify.h>
+#include <koksma/warp.h>
 
 #include "cli.h"
 #include "curves.h"
 
-const char *cli_meant(const char *word, koksma_name_at *name, const void *table, char text[96])
+static const char *meant_in(const char *word, koksma_name_at *name, const void *table, char text[96])
 {
     const char *closest = koksma_closest_name(word, name, table);
     closest = closest && strcmp(closest, word) ? closest : NULL; /* then something else is wrong */
@@ -38,7 +47,113 @@ const char *cli_meant_of(const char *word, const char *list, char text[96])
             names[n++] = at;
         }
     }
-    return cli_meant(word, listed_name, names, text);
+    return meant_in(word, listed_name, names, text);
+}
+
+bool cli_has_word(const char *words, const char *word)
+{
+    for (const char *at = words; *at; at += strcspn(at, " ")) {
+        at += strspn(at, " ");
+        if (strlen(word) == strcspn(at, " ") && !strncmp(at, word, strlen(word))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+const char *cli_join(koksma_name_at *name, const void *table, const char *comma, const char *last, char *text,
+                     size_t size)
+{
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; name(table, i) && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%s",
+                                 !i                   ? ""
+                                 : name(table, i + 1) ? comma
+                                                      : last,
+                                 name(table, i));
+    }
+    return text;
+}
+
+/* ---- The names of tables ---------------------------------------------------------------------------------- */
+
+#define NAME(noun, at)                                                                                               \
+    static const char *noun##_name(const void *table, size_t i)                                                      \
+    {                                                                                                                \
+        (void)table;                                                                                                 \
+        return at(i) ? at(i)->name : NULL;                                                                           \
+    }
+NAME(pattern, koksma_pattern_at)
+NAME(measure, koksma_measure_at)
+NAME(integrand, koksma_integrand_at)
+NAME(estimator, koksma_estimator_at)
+NAME(interval, koksma_interval_at)
+NAME(integrator, koksma_integrator_at)
+NAME(filter, koksma_filter_at)
+NAME(adaptive, koksma_adaptive_at)
+NAME(metric, koksma_metric_at)
+NAME(warp, koksma_warp_at)
+NAME(property, koksma_property_at)
+NAME(use, koksma_use_at)
+NAME(curve, cli_curve_at)
+NAME(command, cli_command_at)
+
+static const char *scene_name(const void *table, size_t i)
+{
+    (void)table;
+    return koksma_scene_name_at(i);
+}
+
+static const char *plan_name(const void *table, size_t i)
+{
+    (void)table;
+    return koksma_plan_name_at(i);
+}
+
+const cli_noun cli_nouns[] = {
+    {"SCENE", scene_name, true, "a scene", "", "koksma rank ", ""},
+    {"PATTERN", pattern_name, false, "a pattern", "patterns", "koksma generate ", " -n 16"},
+    {"MEASURE", measure_name, false, "a measure", "measures", "koksma measure points.txt -m ", ""},
+    {"INTEGRAND", integrand_name, false, "an integrand", "", "koksma integrate ", " -p sobol -n 16"},
+    {"INTEGRATOR", integrator_name, false, "an integrator", "integrator", "koksma rank ball --integrator ", ""},
+    {"", curve_name, false, "a curve", "curve", "koksma curve ", " sobol@64"},
+    {"", use_name, false, "a use", "", "koksma render ball -p ", "=sobol"},
+    {"COMMAND", command_name, false, "a command", "", "koksma ", " --help"},
+    {"ESTIMATOR", estimator_name, false, NULL, NULL, NULL, NULL},
+    {"INTERVAL", interval_name, false, NULL, NULL, NULL, NULL},
+    {"FILTER", filter_name, false, NULL, NULL, NULL, NULL},
+    {"METHOD", adaptive_name, false, NULL, NULL, NULL, NULL},
+    {"METRIC", metric_name, false, NULL, NULL, NULL, NULL},
+    {"WARP", warp_name, false, NULL, NULL, NULL, NULL},
+    {"PROPERTY", property_name, false, NULL, NULL, NULL, NULL},
+    {"PAPER", plan_name, true, NULL, NULL, NULL, NULL},
+    {"PLAN", plan_name, true, NULL, NULL, NULL, NULL},
+    {NULL, NULL, false, NULL, NULL, NULL, NULL},
+};
+
+const cli_noun *cli_noun_of(const char *noun, size_t length)
+{
+    const cli_noun *n = cli_nouns;
+    while (n->noun && (strlen(n->noun) != length || strncasecmp(n->noun, noun, length) != 0)) {
+        n++;
+    }
+    return n->noun ? n : NULL;
+}
+
+int cli_no_member(const cli_args *args, const char *noun, const char *word)
+{
+    char meant[96];
+    return cli_error(args, "no %s '%s'; %s'koksma list %ss' names them", noun, word,
+                     meant_in(word, cli_noun_of(noun, strlen(noun))->name, NULL, meant), noun);
+}
+
+/* ---- Options ---------------------------------------------------------------------------------------------- */
+
+int cli_takes(const cli_args *args, const char *what, const char *word, const char *names)
+{
+    char meant[96] = "";
+    return cli_error(args, "%s%sit takes %s", what, word ? cli_meant_of(word, names, meant) : "", names);
 }
 
 static const char *option_name(const void *options, size_t i)
@@ -46,141 +161,77 @@ static const char *option_name(const void *options, size_t i)
     return i ? ((const cli_option *)options)[i - 1].name : "help";
 }
 
-/* Names that other programs give to options, and what has that meaning here, the first that the command has. */
+/* Names that other programs give to options, and what has that meaning here, the first that the command has; or why there
+   is no such option. */
 static const struct {
-    const char *name, *ours[2];
+    const char *theirs, *ours, *why;
 } foreign_options[] = {
-    {"samples", {"spp", "n"}},
-    {"samples-per-pixel", {"spp"}},
-    {"num-samples", {"spp", "n"}},
-    {"sample-count", {"spp", "n"}},
-    {"count", {"n", "spp"}},
-    {"points", {"n"}},
-    {"num-points", {"n"}},
-    {"sampler", {"patterns", "pattern"}},
-    {"metric", {"measures", "metric"}},
-    {"measure", {"metric"}},
-    {"timeout", {"time-limit"}},
-    {"max-time", {"time-limit"}},
-    {"csv", {"format"}},
-    {"latex", {"format"}},
-    {"tex", {"format"}},
-    {"max-depth", {"depth"}},
-    {"bounces", {"depth"}},
-    {"error", {"target-error", "tolerance"}},
-    {"tol", {"tolerance"}},
-    {"width", {"size"}},
-    {"height", {"size"}},
-    {"resolution", {"size"}},
-    {"res", {"size"}},
-    {"skip", {"first"}},
-    {"offset", {"first"}},
-    {"start", {"first"}},
-    {"jobs", {"threads"}},
-    {"cores", {"threads"}},
-    {"verbose", {"long"}},
-    {"precision", {"digits"}},
-    {"replicates", {"trials"}},
-    {"repeat", {"trials"}},
-    {"seeds", {"trials", "max-trials"}},
-    {"epsilon", {"tolerance"}},
-    {"alpha", {"confidence"}},
-    {"iterations", {"steps"}},
-    {"hdri", {"environment"}},
-    {"ref", {"reference"}},
-    {"out", {"output"}},
-    {"file", {"output"}},
-    {"rng", {"seed"}},
-    {"random-state", {"seed"}},
-    {"dimension", {"dim"}},
-    {"ndim", {"dim"}},
-    {"spp", {"n"}},
-    {"trials", {"max-trials", "seed"}},
-    {"outfile", {"output"}},
-    {"json", {"output"}},
-    {"type", {"curve"}},
-    {"quick", {"time-limit"}},
+    {"samples num-samples sample-count", "spp n", NULL},
+    {"samples-per-pixel", "spp", NULL},
+    {"count", "n spp", NULL},
+    {"points num-points spp", "n", NULL},
+    {"sampler", "patterns pattern", NULL},
+    {"metric", "measures", NULL},
+    {"measure", "metric", NULL},
+    {"timeout max-time quick", "time-limit", NULL},
+    {"csv latex tex", "format", NULL},
+    {"max-depth bounces", "depth", NULL},
+    {"error", "target-error tolerance", NULL},
+    {"tol epsilon", "tolerance", NULL},
+    {"width height resolution res", "size", NULL},
+    {"skip offset start", "first", NULL},
+    {"jobs cores", "threads", NULL},
+    {"verbose", "long", NULL},
+    {"precision", "digits", NULL},
+    {"replicates repeat", "trials", NULL},
+    {"seeds", "trials max-trials", NULL},
+    {"trials", "max-trials seed", NULL},
+    {"alpha", "confidence", NULL},
+    {"iterations", "steps", NULL},
+    {"hdri", "environment", NULL},
+    {"ref", "reference", NULL},
+    {"out outfile file json", "output", NULL},
+    {"rng random-state", "seed", NULL},
+    {"dimension ndim", "dim", NULL},
+    {"type", "curve", NULL},
+    {"scene", "", "a scene is an operand, as in 'koksma rank ball'; "},
+    {"input i f", "", "files are operands, without an option; "},
+    {"o", "", "it writes to standard output, as in '> FILE'; "},
+    {"gamma", "", "PNG has sRGB's curve, EXR and PFM linear light; "},
+    {"gpu", "", "it runs on processors alone; "},
+    {"scramble scrambling", "", "it is a parameter of patterns, as in sobol:scramble=owen; "},
+    {"format", "", "the ending of the file's name chooses it; "},
+    {"scale", "", "coordinates are divided in the file; "},
+    {"fov", "", "the scene's camera has it; "},
+    {"camera", "", "the scene's own is taken; "},
+    {"denoise", "", "'koksma rank' has --filter-with for it; "},
+    {"exposure", "", "EXR and PFM keep the light as it is; "},
+    {"sigma", "", "it is a parameter of filters, as in gaussian:sigma=1; "},
+    {"measure", "", "the measure is an operand, as in 'koksma optimise star'; "},
+    {"pattern patterns", "", "'koksma list patterns' names patterns; "},
 };
 
-/* Options of other programs for what is no option here. */
-static const struct {
-    const char *name, *why;
-} no_options[] = {
-    {"scene", "a scene is an operand, as in 'koksma rank ball'; "},
-    {"input", "files are operands, without an option; "},
-    {"i", "files are operands, without an option; "},
-    {"f", "files are operands, without an option; "},
-    {"o", "it writes to standard output, as in '> FILE'; "},
-    {"gamma", "PNG has sRGB's curve, EXR and PFM linear light; "},
-    {"gpu", "it runs on processors alone; "},
-    {"scramble", "it is a parameter of patterns, as in sobol:scramble=owen; "},
-    {"scrambling", "it is a parameter of patterns, as in sobol:scramble=owen; "},
-    {"format", "the ending of the file's name chooses it; "},
-    {"scale", "coordinates are divided in the file; "},
-    {"fov", "the scene's camera has it; "},
-    {"camera", "the scene's own is taken; "},
-    {"denoise", "'koksma rank' has --filter-with for it; "},
-    {"exposure", "EXR and PFM keep the light as it is; "},
-    {"sigma", "it is a parameter of filters, as in gaussian:sigma=1; "},
-    {"measure", "the measure is an operand, as in 'koksma optimise star'; "},
-    {"pattern", "'koksma list patterns' names patterns; "},
-    {"patterns", "'koksma list patterns' names patterns; "},
-};
-
-/* What names stand for, and a command that takes one, or an option, if the command has it. */
-#define NAME(function, entry)                                                                                        \
-    static const char *function(const void *table, size_t i)                                                         \
-    {                                                                                                                \
-        (void)table;                                                                                                 \
-        return entry;                                                                                                \
+/* The first of the words that names an option, or NULL. */
+static const cli_option *first_option(const cli_option *options, const char *words)
+{
+    const cli_option *found = NULL;
+    char name[32];
+    for (const char *at = words; !found && *at; at += strcspn(at, " "), at += *at == ' ') {
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, " "), at);
+        found = cli_option_of(options, name);
     }
-NAME(pattern, koksma_pattern_at(i) ? koksma_pattern_at(i)->name : NULL)
-NAME(measure, koksma_measure_at(i) ? koksma_measure_at(i)->name : NULL)
-NAME(scene, koksma_scene_name_at(i))
-NAME(integrand, koksma_integrand_at(i) ? koksma_integrand_at(i)->name : NULL)
-NAME(use, koksma_use_at(i) ? koksma_use_at(i)->name : NULL)
-NAME(curve, cli_curve_at(i) ? cli_curve_at(i)->name : NULL)
-
-static const struct {
-    koksma_name_at *name;
-    const char *what, *option, *before, *after;
-} families[] = {
-    {scene, "a scene", "", "koksma rank ", ""},
-    {pattern, "a pattern", "patterns", "koksma generate ", " -n 16"},
-    {measure, "a measure", "measures", "koksma measure points.txt -m ", ""},
-    {integrand, "an integrand", "", "koksma integrate ", " -p sobol -n 16"},
-    {cli_integrator_name, "an integrator", "integrator", "koksma rank ball --integrator ", ""},
-    {curve, "a curve", "curve", "koksma curve ", " sobol@64"},
-    {use, "a use", "", "koksma render ball -p ", "=sobol"},
-    {cli_command_name, "a command", "", "koksma ", " --help"},
-};
-
-/* What files with an ending hold, and a command for them. */
-static const struct {
-    const char *endings, *holds, *before, *after;
-} files[] = {
-    {".txt .csv .npy", "a file of points", "koksma measure ", ""},
-    {".json .pbrt .xml .gltf .glb .obj .ply", "a scene", "koksma rank ", ""},
-    {".exr .png .pfm .jpg .jpeg", "an image", "koksma compare ", " other.exr"},
-};
+    return found;
+}
 
 const char *cli_meant_option(const cli_option *options, const char *name, char text[128])
 {
-    const cli_option *meant = NULL;
     for (size_t i = 0; i < sizeof foreign_options / sizeof *foreign_options; i++) {
-        for (int k = 0; !meant && !strcmp(name, foreign_options[i].name) && k < 2 && foreign_options[i].ours[k];
-             k++) {
-            meant = cli_option_of(options, foreign_options[i].ours[k]);
-        }
-    }
-    if (meant) {
-        const bool is_choice = strcmp(meant->name, "format") == 0 && strstr(meant->argument, name);
-        snprintf(text, 128, "did you mean --%s%s%s? ", meant->name, is_choice ? " " : "", is_choice ? name : "");
-        return text;
-    }
-    for (size_t i = 0; i < sizeof no_options / sizeof *no_options; i++) {
-        if (!strcmp(name, no_options[i].name)) {
-            return no_options[i].why;
+        const cli_option *meant = first_option(options, foreign_options[i].ours);
+        if (cli_has_word(foreign_options[i].theirs, name) && (meant || foreign_options[i].why)) {
+            const bool is_choice = meant && !strcmp(meant->name, "format") && strstr(meant->argument, name);
+            snprintf(text, 128, meant ? "did you mean --%s%s%s? " : "%s%s%s",
+                     meant ? meant->name : foreign_options[i].why, is_choice ? " " : "", is_choice ? name : "");
+            return text;
         }
     }
     const char *closest = koksma_closest_name(name, option_name, options);
@@ -215,20 +266,23 @@ bool cli_slip(const cli_option *options, const char *word, const char *value, ch
     return *text;
 }
 
-static bool is_member(size_t family, const char *name)
+/* ---- Words in the wrong place ----------------------------------------------------------------------------- */
+
+/* What files with an ending hold, and a command for them. */
+static const struct {
+    const char *endings, *holds, *before, *after;
+} files[] = {
+    {".txt .csv .npy", "a file of points", "koksma measure ", ""},
+    {".json .pbrt .xml .gltf .glb .obj .ply", "a scene", "koksma rank ", ""},
+    {".exr .png .pfm .jpg .jpeg", "an image", "koksma compare ", " other.exr"},
+};
+
+static bool is_member(const cli_noun *noun, const char *name)
 {
     const char *member;
-    for (size_t i = 0; (member = families[family].name(NULL, i)) && strcmp(member, name) != 0; i++) {
+    for (size_t i = 0; (member = noun->name(NULL, i)) && strcmp(member, name) != 0; i++) {
     }
     return member;
-}
-
-/* Whether the example of a family is of this command. */
-static bool is_taken(size_t family, const cli_arguments *arguments)
-{
-    const char *example = families[family].before + strlen("koksma "),
-               *name = arguments ? arguments->command->name : " ";
-    return !strncmp(example, name, strlen(name));
 }
 
 /* Writes "; 'WORD' is WHAT, as in '..'". */
@@ -239,7 +293,7 @@ static const char *say_known(const char *word, const char *what, const char *bef
     return text;
 }
 
-const char *cli_known_as(const cli_arguments *arguments, const char *word, char text[CLI_KNOWN])
+const char *cli_known_as(const cli_args *args, const char *word, char text[CLI_KNOWN])
 {
     char name[64];
     *text = '\0';
@@ -253,7 +307,7 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
                                                 : "; --help describes the command");
         return text;
     }
-    if (!strcmp(word, "all") && arguments && cli_option_of(arguments->command->options, "patterns")) {
+    if (!strcmp(word, "all") && args && cli_option_of(args->command->options, "patterns")) {
         snprintf(text, CLI_KNOWN, "; every pattern is -p all");
         return text;
     }
@@ -266,43 +320,38 @@ const char *cli_known_as(const cli_arguments *arguments, const char *word, char 
         snprintf(text, CLI_KNOWN, "; '%s' is a folder", word);
         return text;
     }
-    for (size_t i = 0; dot && dot[1] && i < sizeof files / sizeof *files && !access(word, R_OK); i++) {
-        const char *at = strstr(files[i].endings, dot);
-        if (at && (!at[strlen(dot)] || at[strlen(dot)] == ' ')) {
-            const cli_option *options = i == 0 && arguments ? arguments->command->options : NULL;
-            const bool as_pattern =
-                options && (cli_option_of(options, "patterns") || cli_option_of(options, "pattern"));
-            const bool as_filter = options && !strcmp(arguments->command->name, "mask");
-            const bool as_first = options && !strcmp(arguments->command->name, "optimise");
+    const cli_option *options = args ? args->command->options : NULL;
+    for (size_t i = 0; dot && i < sizeof files / sizeof *files && !access(word, R_OK); i++) {
+        if (cli_has_word(files[i].endings, dot)) {
+            const bool points = i == 0 && options;
             return say_known(word, files[i].holds,
-                             as_first     ? "koksma optimise star --from "
-                             : as_filter  ? "--filter file:"
-                             : as_pattern ? "-p file:"
-                                          : files[i].before,
+                             points && !strcmp(args->command->name, "optimise")    ? "koksma optimise star --from "
+                             : points && !strcmp(args->command->name, "mask")      ? "--filter file:"
+                             : points && first_option(options, "patterns pattern") ? "-p file:"
+                                                                                   : files[i].before,
                              files[i].after, text);
         }
     }
     snprintf(name, sizeof name, "%.*s", (int)strcspn(base, ":@."), base);
-    const bool whole = base == word && !dot;
-    enum { FAMILIES = sizeof families / sizeof *families, OF_SCENES = 0 };
-    if (!whole) {
-        snprintf(text, CLI_KNOWN, is_member(OF_SCENES, name) ? "; did you mean '%s'?" : "%.0s", name);
+    if (base != word || dot) {
+        snprintf(text, CLI_KNOWN, is_member(cli_nouns, name) ? "; did you mean '%s'?" : "%.0s", name);
         return text;
     }
-    size_t found = FAMILIES; /* the first family that has the name, or one that the command takes */
-    for (size_t f = 0; f < FAMILIES; f++) {
-        found = is_member(f, name) && (found == FAMILIES || is_taken(f, arguments)) ? f : found;
+    const cli_noun *found = NULL; /* the first that has the name, or one whose example is of this command */
+    for (const cli_noun *n = cli_nouns; n->what; n++) {
+        const char *example = n->before + strlen("koksma "), *own = args ? args->command->name : " ";
+        found = is_member(n, name) && (!found || !strncmp(example, own, strlen(own))) ? n : found;
     }
-    if (found == FAMILIES) {
-        return text;
-    }
-    const cli_option *option = arguments ? cli_option_of(arguments->command->options, families[found].option) : NULL;
-    const char letter = option ? option->letter : '\0', before[] = {'-', letter, ' ', '\0'};
-    return letter ? say_known(word, families[found].what, before, "", text)
-                  : say_known(name, families[found].what, families[found].before, families[found].after, text);
+    const cli_option *option = found && options ? cli_option_of(options, found->option) : NULL;
+    const char before[] = {'-', option ? option->letter : '\0', ' ', '\0'};
+    return !found      ? text
+           : before[1] ? say_known(word, found->what, before, "", text)
+                       : say_known(name, found->what, found->before, found->after, text);
 }
 
-int cli_explain(const cli_arguments *arguments, koksma_status status, const char *text, char known[CLI_KNOWN])
+/* Writes to `known` what the word is that an error of the library is about, "no pattern 'star'" or a missing file, as
+   cli_known_as does. Returns how much of the error's text stays before it. */
+static int explain(const cli_args *args, koksma_status status, const char *text, char known[CLI_KNOWN])
 {
     const char *quote = strncmp(text, "no ", 3) || !strncmp(text, "no warp", 7) ? NULL : strchr(text, '\'');
     const char *word = quote ? quote + 1 : text;
@@ -311,7 +360,7 @@ int cli_explain(const cli_arguments *arguments, koksma_status status, const char
                                                  : NULL;
     char name[CLI_KNOWN];
     snprintf(name, sizeof name, "%.*s", end ? (int)(end - word) : 0, word);
-    return *cli_known_as(arguments, name, known) && quote ? (int)(end + 1 - text) : (int)strlen(text);
+    return *cli_known_as(args, name, known) && quote ? (int)(end + 1 - text) : (int)strlen(text);
 }
 
 /* What part of an error's text is about, in a command or (NULL) all, and what would work. */
@@ -328,49 +377,32 @@ static const struct {
     {NULL, "the shape is not (n,) or (n, dim)", "a file has one set"},
     {NULL, "coordinate nan is", "is a value missing?"},
     {NULL, ", but the file has ", "was it cut off?"},
+    {NULL, "--output goes with power", "--format csv prints the others, 'koksma plot --curve' draws them"},
     {NULL, "no points in the file", "are all lines comments?"},
-    {"datasheet", "is outside [0,1]", "divide coordinates by the size"},
-    {"atlas", "is outside [0,1]", "divide coordinates by the size"},
     {NULL, "'%PDF-", "it is a PDF"},
-    {NULL, "'v' is not a number", "is it a model?"},
     {NULL, "'&' is not a number", "the marks of LaTeX, & and \\\\, have to go"},
     {NULL, "is not a whole number below 2^64", "a file of points is file:PATH"},
     {NULL, ", but --at ", "a point has commas, as in 0.5,0.5"},
     {NULL, "--time-limit ", "seconds, as in 60"},
-    {NULL, "--output goes with power", "--format csv prints the others, 'koksma plot --curve' draws them"},
     {NULL, ": no parameter 'base", "the bases are the first primes"},
     {NULL, "--output: it takes power of one", "'koksma plot --curve power' draws several"},
     {NULL, "--warp disk", "concentric-disk and polar-disk map to it"},
-    {NULL, "--curve spectrum", "power is the spectrum"},
     {"mask", "'check' and files", "a size is --size 64x64"},
     {"integrate", "ended with exit code", "it gets 2 coordinates a line, or as many as -d says"},
     {"integrate", "no integrand '", "--with takes a program for one's own"},
-    {"integrate", "are more than --max-points", "raise that, or lower -n"},
     {"optimise", "which differs from -n or -d", "leave these out"},
     {NULL, "no built-in plan", "'koksma list plans' names them"},
     {NULL, " values for ", "a number a line, one for each point"},
     {NULL, "is no number: '", "a number a line, one for each point"},
     {NULL, "coordinate that the points do not have", "coordinates count from 0, as in 0+1"},
-    {NULL, "files have no numbers of 8 bits", ".png and .raw have"},
     {NULL, "expected near end of file", "is it empty, or cut off?"},
-    {NULL, "string or '}' expected near ','", "is there a comma too many?"},
-    {NULL, "mismatched tag", "each <tag> ends by </tag> or />"},
     {NULL, ": comment: unknown field; it has title", "a scene has 'note'; a plan is run by 'koksma study run'"},
     {NULL, ": name: unknown field; it has title", "a plan is run by 'koksma study run'"},
     {"study", "image: unknown field", "a scene is rendered by 'koksma render'"},
     {"study", "'[' or '{' expected", "a scene is rendered by 'koksma render'"},
-    {NULL, ".material: it takes a text", "the name of one in 'materials'"},
-    {NULL, "clamp: 0 is not", "without it nothing is clamped"},
-    {NULL, ".albedo[0]: ", "colours of 0 to 255 are divided by 255"},
-    {NULL, ": no material '", "'materials' has to have it"},
-    {NULL, "no kind 'diffuse'", "it is lambert here"},
-    {NULL, "no kind 'matte'", "it is lambert here"},
-    {NULL, "no kind 'glass'", "it is dielectric here"},
-    {NULL, "no kind 'metal'", "it is conductor here"},
-    {NULL, "no kind 'cube'", "it is box here"},
 };
 
-const char *cli_remedy(const char *command, const char *text)
+static const char *remedy_of(const char *command, const char *text)
 {
     size_t i = 0;
     const size_t n = sizeof remedies / sizeof *remedies;
@@ -400,20 +432,97 @@ void cli_no_command(const char *command, const char *word)
         cli_say(command, "no command '%s'%s", word, known);
     } else {
         cli_say(command, "no command '%s'; %s'koksma --help' names them", word,
-                cli_meant(word, cli_command_name, NULL, meant));
+                meant_in(word, command_name, NULL, meant));
     }
 }
 
-const char *cli_operand_hint(const cli_arguments *arguments, const char *operand, char text[CLI_KNOWN])
+const char *cli_operand_hint(const cli_args *args, const char *operand, char text[CLI_KNOWN])
 {
-    static const char *const outputs[] = {".txt", ".csv", ".npy", ".png", ".exr", ".pfm", ".jpg", ".svg", ".pdf"};
-    const size_t length = strlen(operand);
-    for (size_t i = 0; cli_option_of(arguments->command->options, "output") && i < sizeof outputs / sizeof *outputs;
-         i++) {
-        if (length > 4 && !strcmp(operand + length - 4, outputs[i])) {
-            return "; -o FILE names the file to write";
-        }
+    const char *dot = strrchr(operand, '.');
+    if (dot > operand && cli_option_of(args->command->options, "output") &&
+        cli_has_word(".txt .csv .npy .png .exr .pfm .jpg .svg .pdf", dot)) {
+        return "; -o FILE names the file to write";
     }
-    return *operand && strspn(operand, "0123456789") == length ? "; -n N gives a number of points or samples"
-                                                               : cli_known_as(arguments, operand, text);
+    return *operand && !operand[strspn(operand, "0123456789")] ? "; -n N gives a number of points or samples"
+                                                               : cli_known_as(args, operand, text);
+}
+
+/* ---- Messages --------------------------------------------------------------------------------------------- */
+
+static bool complained; /* an error was printed, so cli_no_memory() prints nothing */
+
+const char *cli_one_line(const char *text)
+{
+    static char lines[4][4096];
+    static size_t next;
+    char *line = lines[next++ % (sizeof lines / sizeof *lines)];
+    snprintf(line, sizeof *lines, "%s", text);
+    koksma_text_escape(line, sizeof *lines);
+    return line;
+}
+
+void cli_say(const char *command, const char *format, ...)
+{
+    va_list list;
+    char text[4096];
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    koksma_text_escape(text, sizeof text);
+    cli_work_end();
+    fprintf(stderr, *command ? "koksma %s: %s\n" : "koksma%s: %s\n", command, text);
+}
+
+void cli_note(const cli_args *args, const char *format, ...)
+{
+    va_list list;
+    char text[4096];
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    if (!cli_given(args, "quiet")) {
+        cli_say(args->command->name, "%s", text);
+    }
+}
+
+static void say_error(const cli_args *args, const char *text)
+{
+    const char *command = args->command->name, *remedy = remedy_of(command, text);
+    cli_say(command, "%s%s%s", text, !*remedy ? "" : text[strlen(text) - 1] == '?' ? " " : "; ", remedy);
+}
+
+int cli_error(const cli_args *args, const char *format, ...)
+{
+    va_list list;
+    char text[4096];
+    complained = true;
+    if (cli_has_word("study reproduce", args->command->name) && koksma_study_mpi_rank() > 0) {
+        /* all ranks find the same mistake; mpirun may end all once one has failed: rank 0 has time to say why */
+        nanosleep(&(struct timespec){.tv_sec = 5}, NULL);
+        return CLI_USAGE;
+    }
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    say_error(args, text);
+    return CLI_USAGE;
+}
+
+int cli_fail(const cli_args *args, koksma_status status)
+{
+    char known[CLI_KNOWN], all[4096];
+    const char *text = koksma_error_text();
+    complained = true;
+    snprintf(all, sizeof all, "%.*s%s", explain(args, status, text, known), text, known);
+    say_error(args, all);
+    return koksma_status_exit_code(status);
+}
+
+int cli_no_memory(void)
+{
+    if (!complained) {
+        fputs("koksma: out of memory\n", stderr);
+    }
+    complained = true;
+    return koksma_status_exit_code(KOKSMA_MEMORY);
 }

@@ -11,7 +11,7 @@
 /* ---- The option --warp: a map of the unit square by its name ------------------------------------------ */
 
 /* Returns the warp of that name, or NULL after an error that lists all names. */
-const koksma_warp *cli_find_warp(const cli_arguments *arguments, const char *name);
+const koksma_warp *cli_find_warp(const cli_args *args, const char *name);
 
 /* Maps 2-dimensional points by the warp. *points becomes the set of mapped points, of the warp's dimension. */
 koksma_status cli_map_points(const koksma_warp *warp, koksma_points *points);
@@ -24,20 +24,35 @@ bool cli_is_cut_short(const koksma_spec *measure, const koksma_value *value);
 
 /* Prints a line on stderr with the number of values of `what` that are only bounds because a search was cut short.
    Prints nothing if there are none, or with --quiet. */
-void cli_tell_cuts(const cli_arguments *arguments, const char *what, size_t n_cut);
-
-/* ---- `koksma measure --at`: the local discrepancy of points at a corner of a box ---------------------- */
-
-/* Prints a row for each source. Returns the exit code. */
-int measure_local(const cli_arguments *arguments);
+void cli_tell_cuts(const cli_args *args, const char *what, size_t n_cut);
 
 /* ---- The state of `koksma measure`, and measures over many sets or several sizes ---------------------- */
 
 enum { MAX_MEASURES = 64, MAX_PREFIXES = KOKSMA_MAX_SIZES, MAX_WARPS = 16, MAX_PAIRED_TRIALS = 1000000 };
 
+/* Statistics of the values of a measure at a prefix, and of how much they exceed those of the first source, and how many
+   of both are exact. */
+typedef struct tallied {
+    koksma_tally values, differences;
+    size_t n_exact, n_exact_pairs;
+} tallied;
+
+/* A measure's values for its fitted slope, the number of trials whose values are exact at all prefixes, and of all sources
+   the number of values that are only bounds because the search was cut short. */
+typedef struct fitted {
+    koksma_joint joint;
+    size_t n_whole, n_cut;
+} fitted;
+
+/* A value of the first source, with which --paired compares. */
+typedef struct paired_value {
+    double value;
+    bool exact;
+} paired_value;
+
 /* The option values of `koksma measure`, and the state of its run. */
 typedef struct measuring {
-    const cli_arguments *arguments;
+    const cli_args *args;
     koksma_spec measures[MAX_MEASURES];
     size_t n_measures;
     bool all;        /* -m all: leave out measures that do not accept a set */
@@ -49,25 +64,16 @@ typedef struct measuring {
     size_t prefixes[MAX_PREFIXES], n_prefixes;
     bool powers;    /* --prefixes powers: the prefixes are the powers of two */
     bool residuals; /* rows have a column for the residual error of slopes that are fitted to one set */
+    bool by_size;   /* values at several sizes, with a slope */
     bool own_sets;  /* --sizes: generate a new set for each size instead of measuring prefixes of one set */
     double time_limit_s;
     cli_work work;
-    size_t n_evaluated; /* number of evaluations begun, for the progress line */
-    cli_rows *rows;
-    koksma_tally *tallies; /* [prefix][measure]: statistics of the values */
-    size_t *n_exact;       /* [prefix][measure]: number of trials with exact values */
-    /* [measure]: number of values of all sources that are only bounds because the search was cut short */
-    size_t *n_cut;
-    size_t *n_whole;      /* [measure]: number of trials whose values are exact at all prefixes */
-    koksma_joint *joints; /* [measure]: values for the fitted slopes */
+    size_t n_evaluated;   /* number of evaluations begun, for the progress line */
+    tallied *tallies;     /* [prefix][measure] */
+    fitted *fits;         /* [measure] */
     bool bounds, sampled; /* whether rows have columns for bounds, and for standard errors */
-    /* --paired: firsts has the values of the first source, [trial][prefix][measure]; differences has statistics of
-       how much the values of the other sources exceed these */
     bool paired;
-    double *firsts;
-    bool *first_is_exact;
-    koksma_tally *differences;
-    size_t *n_exact_pairs;
+    paired_value *firsts; /* [trial][prefix][measure] */
     size_t n_firsts;
     const char *first_source;
     const koksma_warp *first_warp;
@@ -84,18 +90,9 @@ koksma_status measuring_forgive(measuring *j, koksma_status status);
    before any measure of these points is evaluated. Returns the exit code. */
 int measuring_check_dim(measuring *j, int dim);
 
-/* Returns whether --prefixes or --sizes asks for values at several sizes, with a slope. */
-bool measuring_by_size(const measuring *j);
-
-/* Returns whether slopes of some source are fitted to one set: there is one trial, or the pattern has only one set. */
-bool measuring_has_residuals(const measuring *j);
-
-/* Refuses --prefixes for a pattern whose first points are not a set of the pattern. Returns false after an error on
-   stderr. */
-bool measuring_check_prefixes(const measuring *j);
-
-/* Measures many sets, or several sizes, of a source. After an interruption it prints what was measured. Returns the
-   exit code. */
+/* Measures many sets, or several sizes, of a source of *dim dimensions; measuring_trials prints the statistics, too, after
+   an interruption those of what was measured. */
+int measuring_tally(measuring *j, const char *source, int *dim);
 int measuring_trials(measuring *j, const char *source);
 
 #endif

@@ -95,33 +95,24 @@ bool cli_is_same_file(const char *a, const char *b)
     return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
 }
 
-bool cli_ending_fits(const cli_arguments *arguments, const char *argument, const char *path)
+bool cli_ending_fits(const cli_args *args, const char *argument, const char *path)
 {
-    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.');
-    const char *first = strchr(argument, '.');
-    dot = dot && dot > base && dot[1] ? dot : NULL; /* ".", ".." and ".name" have no ending */
-    char all[64] = "";
-    size_t used = 0;
-    for (const char *at = first, *end; dot && at && *at; at = end + (*end == '|')) {
-        end = at + strcspn(at, "|");
-        const size_t length = strlen(base), ending = (size_t)(end - at);
-        const char *comma = strchr(base, ',');
+    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.'),
+               *comma = strchr(base, ','), *first = strchr(argument, '.');
+    char all[64];
+    if (!dot || dot == base || !dot[1] || !first) { /* ".", ".." and ".name" have no ending */
+        return true;
+    }
+    for (const char *at = first; *at; at += strcspn(at, "|"), at += *at == '|') {
+        const size_t length = strlen(base), ending = strcspn(at, "|");
         if (comma && comma - base > (ptrdiff_t)ending && !strncmp(comma - ending, at, ending)) {
-            return !cli_usage_error(arguments, "%s: it writes one file, not two", path);
+            return !cli_error(args, "%s: it writes one file, not two", path);
         }
         if (length > ending && !strncmp(base + length - ending, at, ending)) {
             return true;
         }
-        used += (size_t)snprintf(all + used, sizeof all - used, "%s%.*s",
-                                 !used  ? ""
-                                 : *end ? ", "
-                                        : " or ",
-                                 (int)(end - at), at);
     }
-    if (used) {
-        cli_usage_error(arguments, "%s: its name must end in %s", path, all);
-    }
-    return !used;
+    return !cli_error(args, "%s: its name must end in %s", path, cli_alternatives(first, all, sizeof all));
 }
 
 /* Whether koksma wrote a file of points, as far as its text says: a search may continue in it. */
@@ -137,28 +128,37 @@ static bool is_ours(const char *path)
     return ours || (end && (!strcmp(end, ".npy") || !strcmp(end, ".csv")));
 }
 
-bool cli_keeps_inputs(const cli_arguments *arguments)
+/* Whether an item of a list is a file that `output` would replace; then it prints an error. */
+static bool is_replaced(const cli_args *args, const char *list, const char *output)
 {
-    const cli_option *options = arguments->command->options;
-    const char *output = NULL, *input = NULL;
-    struct stat info;
-    for (int i = 0; options[i].name; i++) {
-        output = strcmp(options[i].name, "output") ? output : arguments->values[i];
+    char item[KOKSMA_MAX_SPEC];
+    for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
+        if (cli_reads(item, output)) {
+            return cli_error(args, "--output %s: it would replace what is read, %s; choose another file", output,
+                             item);
+        }
     }
+    return false;
+}
+
+bool cli_keeps_inputs(const cli_args *args)
+{
+    const cli_option *options = args->command->options;
+    const char *output = cli_given(args, "output");
+    struct stat info;
+    bool keeps = true;
     if (!output || stat(output, &info) || !S_ISREG(info.st_mode)) {
         return true;
     }
-    for (int i = 0; i < arguments->n_operands; i++) {
-        input = cli_reads(arguments->operands[i], output) ? arguments->operands[i] : input;
+    for (int i = 0; i < args->n_operands && keeps; i++) {
+        keeps = !is_replaced(args, args->operands[i], output);
     }
-    for (int i = 0; options[i].name; i++) {
-        const char *name = options[i].name, *value = arguments->values[i];
-        const bool is_read = value && value != output && strcmp(name, "error-map") != 0 && cli_reads(value, output);
-        input = is_read && (strcmp(name, "from") != 0 || !is_ours(value)) ? value : input;
+    for (int i = 0; options[i].name && keeps; i++) {
+        const char *name = options[i].name, *value = args->values[i];
+        keeps = !value || cli_has_word("output error-map", name) || (!strcmp(name, "from") && is_ours(value)) ||
+                !is_replaced(args, value, output);
     }
-    return !input ||
-           !cli_usage_error(arguments, "--output %s: it would replace what is read, %s; choose another file", output,
-                            input);
+    return keeps;
 }
 
 enum { MOST_LINKS = 40 }; /* as many as the system follows */
@@ -204,42 +204,15 @@ static int why_not(const char *path)
     return why;
 }
 
-int cli_try_output(const cli_arguments *arguments, const char *path)
+int cli_try_output(const cli_args *args, const char *path)
 {
     const int why = !path || cli_is_stream(path) ? 0 : why_not(path);
     if (why) {
-        cli_usage_error(arguments, "%s: can't be written: %s", path,
-                        why == EISDIR   ? "it is a directory"
-                        : why == ENOENT ? "its folder isn't there"
-                                        : strerror(why));
+        cli_error(args, "%s: can't be written: %s", path,
+                  why == EISDIR   ? "it is a directory"
+                  : why == ENOENT ? "its folder isn't there"
+                                  : strerror(why));
         return koksma_status_exit_code(KOKSMA_IO);
     }
     return CLI_YES;
-}
-
-bool cli_check_output(const cli_arguments *arguments, const char *path)
-{
-    if (cli_flag(arguments, "json") && cli_is_stdout(path)) {
-        cli_usage_error(arguments, "--json: it excludes -o %s, which writes the points to standard output", path);
-        return false;
-    }
-    return true;
-}
-
-/* Writes where a file at `path` is or will be made. Returns false if its folder isn't there either. */
-static bool place_of(const char *path, char out[PATH_MAX])
-{
-    char folder[PATH_MAX], *at = follow(path);
-    const char *slash = at ? strrchr(at, '/') : NULL, *name = slash ? slash + 1 : at;
-    const bool known = at && snprintf(out, PATH_MAX, "%.*s.", slash ? (int)(slash - at) + 1 : 0, at) < PATH_MAX &&
-                       realpath(out, folder) && snprintf(out, PATH_MAX, "%s/%s", folder, name) < PATH_MAX;
-    free(at);
-    return known;
-}
-
-bool cli_is_same_output(const char *a, const char *b)
-{
-    char one[PATH_MAX], other[PATH_MAX];
-    return !cli_is_stream(a) && !cli_is_stream(b) &&
-           (!strcmp(a, b) || (place_of(a, one) && place_of(b, other) && !strcmp(one, other)));
 }

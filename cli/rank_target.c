@@ -9,34 +9,18 @@
 
 static const char *const states[] = {"checked", "extrapolated", "unknown", "refused"};
 
-static void put_row(cli_rows *rows, const koksma_rank_options *options, double target, const koksma_target_row *row,
+static void put_row(const koksma_rank_options *options, double target, const koksma_target_row *row,
                     const koksma_target_ranking *ranking)
 {
-    cli_row_text(rows, "scene", options->scene);
-    cli_row_text(rows, "pattern", options->patterns[row->pattern]);
-    cli_row_number(rows, "target", target);
-    if (row->state == KOKSMA_TARGET_CHECKED) {
-        cli_row_whole(rows, "spp", (uint64_t)row->spp);
-    } else {
-        cli_row_json(rows, "spp", "null", "-");
-    }
-    cli_row_number(rows, "error", row->error);
-    cli_row_number(rows, "low", row->low);
-    cli_row_number(rows, "high", row->high);
-    cli_row_number(rows, "needed", row->needed);
-    cli_row_number(rows, "needed_low", row->needed_low);
-    cli_row_number(rows, "needed_high", row->needed_high);
-    cli_row_number(rows, "rate", row->rate);
-    cli_row_number(rows, "rate_error", row->rate_error);
-    cli_row_text(rows, "state", states[row->state]);
-    cli_row_flag(rows, "coherent", row->coherent);
-    cli_row_whole(rows, "trials", (uint64_t)row->trials);
-    cli_row_whole(rows, "width", (uint64_t)ranking->width);
-    cli_row_whole(rows, "height", (uint64_t)ranking->height);
     char metric[KOKSMA_MAX_SPEC];
     koksma_metric_text(options->metric, metric);
-    cli_row_text(rows, "metric", metric);
-    cli_row_end(rows);
+    cli_row("scene %s pattern %s target %g spp %g error %g low %g high %g needed %g needed_low %g needed_high %g "
+            "rate %g rate_error %g "
+            "state %s coherent? %d trials %lld width %d height %d metric %s\n",
+            options->scene, options->patterns[row->pattern], target,
+            row->state == KOKSMA_TARGET_CHECKED ? row->spp : (double)NAN, row->error, row->low, row->high,
+            row->needed, row->needed_low, row->needed_high, row->rate, row->rate_error, states[row->state],
+            row->coherent, row->trials, ranking->width, ranking->height, metric);
 }
 
 /* Prints which pattern needs the fewest samples, and which patterns are refused. */
@@ -65,24 +49,23 @@ static void advise(const koksma_rank_options *options, double target, const koks
 }
 
 /* Returns false, after an error, if an option says what --target-error chooses. */
-static bool options_fit(const cli_arguments *arguments, uint64_t spp)
+static bool options_fit(const cli_args *args, uint64_t spp)
 {
-    if (!cli_refuse(arguments, "spp max-trials one-size", "has no effect with --target-error")) {
+    if (!cli_refuse(args, "spp max-trials one-size", "has no effect with --target-error")) {
         return false;
     }
     if (spp) {
-        cli_usage_error(arguments, "-p has @%llu, but --target-error chooses the number of samples",
-                        (unsigned long long)spp);
+        cli_error(args, "-p has @%llu, but --target-error chooses the number of samples", (unsigned long long)spp);
     }
     return !spp;
 }
 
-int cli_rank_to_error(const cli_arguments *arguments, const koksma_rank_options *options, uint64_t spp)
+int cli_rank_to_error(const cli_args *args, const koksma_rank_options *options, uint64_t spp)
 {
     cli_work work;
     double target;
-    if (!options_fit(arguments, spp) || !cli_real(arguments, "target-error", 0, 1e-300, 1e300, &target) ||
-        !cli_work_begin(arguments, "ranking", &work)) {
+    if (!options_fit(args, spp) || !cli_real(args, "target-error", 0, 1e-300, 1e300, &target) ||
+        !cli_work_begin(args, "ranking", &work)) {
         return CLI_USAGE;
     }
     work.limit_s = options->time_limit_s;
@@ -94,15 +77,14 @@ int cli_rank_to_error(const cli_arguments *arguments, const koksma_rank_options 
     const koksma_status status = koksma_rank_to_error(options, target, &work.run, table, &ranking);
     cli_work_end();
     bool all = true;
-    cli_rows *rows = cli_rows_open(cli_flag(arguments, "json"));
     for (size_t i = 0; i < options->n_patterns && !status; i++) {
-        put_row(rows, options, target, &table[i], &ranking);
+        put_row(options, target, &table[i], &ranking);
         all = all && (table[i].state == KOKSMA_TARGET_CHECKED || table[i].state == KOKSMA_TARGET_REFUSED);
     }
     if (!status) {
-        advise(options, target, table, &ranking, cli_flag(arguments, "quiet"));
+        advise(options, target, table, &ranking, cli_flag(args, "quiet"));
     }
     free(table);
-    const int code = status ? cli_fail(arguments, status) : all ? CLI_YES : CLI_NO;
-    return cli_rows_close(rows, code);
+    const int code = status ? cli_fail(args, status) : all ? CLI_YES : CLI_NO;
+    return cli_rows_close(code);
 }

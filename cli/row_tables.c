@@ -14,7 +14,7 @@
 static void print_csv(const cli_cell *c, bool head)
 {
     const char *text = head ? c->key : c->text;
-    const bool formula = !c->is_number && strspn(text, "=+@-\t") && strcmp(text, "-") != 0;
+    const bool formula = c->kind != CLI_FIGURE && strspn(text, "=+@-\t") && strcmp(text, "-") != 0;
     const char *quote = formula || strpbrk(text, ",\"\r\n") ? "\"" : "";
     printf("%s%s", quote, formula ? "'" : "");
     for (; *text; text++) {
@@ -30,7 +30,7 @@ static void print_latex(const cli_cell *c, bool head)
     static const char *const command[] = {"\\textbackslash{}", "\\textasciitilde{}", "\\textasciicircum{}",
                                           "\\textless{}", "\\textgreater{}"};
     const char *text = head ? c->key : c->text, *power = strchr(text, 'e');
-    if (c->is_number && !head) {
+    if (c->kind == CLI_FIGURE && !head) {
         const int mantissa = (int)(power ? (size_t)(power - text) : strlen(text));
         printf(!strcmp(text, "-") ? "--"
                : power            ? "$%.*s \\times 10^{%d}$"
@@ -102,7 +102,7 @@ static cli_cell *widen(const cli_block *b, cli_block *wide)
         char text[64];
         put_error(text, cli_cell_at(b, row, value)->text, error < b->columns ? cli_cell_at(b, row, error)->text : "");
         memcpy(to, cli_cell_at(b, row, 0), keys * sizeof *to);
-        to[keys + row % measures] = (cli_cell){cli_cell_at(b, row, keys)->text, strdup(text), true};
+        to[keys + row % measures] = (cli_cell){cli_cell_at(b, row, keys)->text, strdup(text), CLI_FIGURE};
     }
     return cells;
 }
@@ -124,7 +124,7 @@ static void print(cli_block *b, bool latex, bool is_long, bool first)
         }
         printf("\\begin{tabular}{");
         for (size_t i = 0; i < b->columns; i++) {
-            printf("%s", b->states[i] != CLI_SHOWN ? "" : b->cells[i].is_number ? "r" : "l");
+            printf("%s", b->states[i] != CLI_SHOWN ? "" : b->cells[i].kind == CLI_FIGURE ? "r" : "l");
         }
         puts("}\n\\toprule");
     }

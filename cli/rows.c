@@ -4,6 +4,7 @@
 #include "rows.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -164,7 +165,7 @@ void cli_fit_columns(cli_block *b, int width)
     int least[CLI_MOST_COLUMNS], room = width + GAP;
     for (size_t i = 0; i < b->columns; i++) {
         const int key = width_of(b->cells[i].key, strlen(b->cells[i].key)), natural = b->widths[i];
-        least[i] = b->cells[i].is_number || natural < LEAST ? natural : key > LEAST ? key : LEAST;
+        least[i] = b->cells[i].kind == CLI_FIGURE || natural < LEAST ? natural : key > LEAST ? key : LEAST;
         b->states[i] = is_common(b, i) ? CLI_COMMON : least[i] + GAP > room ? CLI_LEFT_OUT : CLI_SHOWN;
         room -= b->states[i] == CLI_SHOWN ? least[i] + GAP : 0;
     }
@@ -183,7 +184,7 @@ static void print_columns(const cli_block *b, size_t row)
     for (size_t i = 0; i < b->columns; i++) {
         const cli_cell *c = cli_cell_at(b, row == SIZE_MAX ? 0 : row, i);
         if (b->states[i] == CLI_SHOWN) {
-            pieces[n++] = (piece){row == SIZE_MAX ? c->key : c->text, b->widths[i], c->is_number};
+            pieces[n++] = (piece){row == SIZE_MAX ? c->key : c->text, b->widths[i], c->kind == CLI_FIGURE};
         }
     }
     if (n > 0) {
@@ -249,12 +250,13 @@ static void print_table(const cli_cell *cells, size_t n, int width)
 
 /* ---- The rows of a command ----------------------------------------------------------------------------- */
 
-/* Text rows are stored until the end, because a column is as wide as its widest cell. */
-struct cli_rows {
-    bool json, started, failed;
-    cli_cell *cells; /* cells of all rows; a row ends at a cell with a NULL key */
+/* The rows of the table that is printed. Of text all are stored until the end, because a column is as wide as its widest
+   cell; of JSON those of one row. */
+static struct {
+    bool failed;
+    cli_cell *cells; /* a row ends at a cell with a NULL key */
     size_t n, capacity;
-};
+} rows;
 
 void cli_set_style(int n_digits, bool all_columns)
 {
@@ -267,48 +269,31 @@ void cli_set_format(int row_format)
     format = row_format;
 }
 
-static cli_rows no_rows = {.failed = true}; /* the object that replaces the rows when memory runs out; it ignores all
-                                               cells */
-
-cli_rows *cli_rows_open(bool json)
+/* Adds a cell, whose text becomes one line of valid UTF-8, unless it is one of JSON. */
+static void push(const char *key, const char *text, cli_cell_kind kind)
 {
-    cli_rows *rows = calloc(1, sizeof *rows);
-    if (rows) {
-        rows->json = json;
+    if (rows.n == rows.capacity && !rows.failed) {
+        const size_t capacity = rows.capacity ? 2 * rows.capacity : 64;
+        cli_cell *cells = realloc(rows.cells, capacity * sizeof *cells);
+        rows.failed = !cells;
+        rows.cells = cells ? cells : rows.cells;
+        rows.capacity = cells ? capacity : rows.capacity;
     }
-    return rows ? rows : &no_rows;
-}
-
-/* A copy of a text as one line of valid UTF-8; NULL without memory. */
-static char *one_line(const char *text)
-{
-    const size_t size = 4 * strlen(text) + 1;
-    char *line = malloc(size);
-    if (line) {
-        strcpy(line, text);
-        koksma_text_escape(line, size);
-    }
-    return line;
-}
-
-static void push(cli_rows *rows, const char *key, const char *text, bool is_number)
-{
-    if (rows->failed) {
+    const size_t size = text ? 4 * strlen(text) + 1 : 0;
+    cli_cell cell = {key ? strdup(key) : NULL, text ? malloc(size) : NULL, kind};
+    if (rows.failed || (key && !cell.key) || (text && !cell.text)) {
+        rows.failed = true;
+        free(cell.key);
+        free(cell.text);
         return;
     }
-    if (rows->n == rows->capacity) {
-        const size_t capacity = rows->capacity ? 2 * rows->capacity : 64;
-        cli_cell *cells = realloc(rows->cells, capacity * sizeof *cells);
-        if (!cells) {
-            rows->failed = true;
-            return;
-        }
-        rows->cells = cells;
-        rows->capacity = capacity;
+    if (text) {
+        strcpy(cell.text, text);
     }
-    cli_cell *c = &rows->cells[rows->n++];
-    *c = (cli_cell){key ? strdup(key) : NULL, text ? one_line(text) : NULL, is_number};
-    rows->failed |= (key && !c->key) || (text && !c->text);
+    if (text && format != CLI_JSON) {
+        koksma_text_escape(cell.text, size);
+    }
+    rows.cells[rows.n++] = cell;
 }
 
 /* The number of bytes of the character of UTF-8 at `text`; 0 if there is none. koksma_text_escape changes all other
@@ -348,34 +333,17 @@ static void json_text(const char *text)
     putchar('"');
 }
 
-static void json_key(cli_rows *rows, const char *key)
+void cli_row_json(const char *key, const char *json, const char *text)
 {
-    if (!rows->started) {
-        cli_work_end();
-    }
-    fputs(rows->started ? "," : "{", stdout);
-    rows->started = true;
-    json_text(key);
-    putchar(':');
+    push(key, format == CLI_JSON ? json : text, CLI_LITERAL);
 }
 
-void cli_row_text(cli_rows *rows, const char *key, const char *value)
+void cli_row_text(const char *key, const char *value)
 {
-    if (rows->json) {
-        json_key(rows, key);
-        json_text(value);
+    if (value) {
+        push(key, value, CLI_WORDS);
     } else {
-        push(rows, key, value, false);
-    }
-}
-
-void cli_row_json(cli_rows *rows, const char *key, const char *json, const char *text)
-{
-    if (rows->json) {
-        json_key(rows, key);
-        fputs(json, stdout);
-    } else {
-        push(rows, key, text, false);
+        cli_row_json(key, "null", "-");
     }
 }
 
@@ -393,65 +361,101 @@ const char *cli_number(double value, char text[CLI_NUMBER])
     return text;
 }
 
-void cli_row_number(cli_rows *rows, const char *key, double value)
+void cli_row_number(const char *key, double value)
 {
     char text[CLI_NUMBER];
-    if (rows->json) {
-        json_key(rows, key);
-        snprintf(text, sizeof text, isfinite(value) ? "%.17g" : "null", value);
-        fputs(text, stdout);
-    } else if (format == CLI_CSV) {
-        snprintf(text, sizeof text, "%.17g", value);
-        push(rows, key, isfinite(value) ? text : "", true);
+    const bool whole = format == CLI_JSON || format == CLI_CSV;
+    snprintf(text, sizeof text, "%.17g", value);
+    push(key,
+         !whole               ? cli_number(value, text)
+         : isfinite(value)    ? text
+         : format == CLI_JSON ? "null"
+                              : "",
+         CLI_FIGURE);
+}
+
+/* Adds the cell of one conversion of cli_row. */
+static void put_field(const char *key, const char *conversion, va_list *list)
+{
+    char number[CLI_NUMBER];
+    const char type = conversion[strcspn(conversion, "sgdu")];
+    if (type == 's') {
+        cli_row_text(key, va_arg(*list, const char *));
+    } else if (type == 'g') {
+        cli_row_number(key, va_arg(*list, double));
     } else {
-        push(rows, key, cli_number(value, text), true);
+        !strncmp(conversion, "%zu", 3)    ? snprintf(number, sizeof number, "%zu", va_arg(*list, size_t))
+        : !strncmp(conversion, "%llu", 4) ? snprintf(number, sizeof number, "%llu", va_arg(*list, unsigned long long))
+        : !strncmp(conversion, "%lld", 4) ? snprintf(number, sizeof number, "%lld", va_arg(*list, long long))
+                                          : snprintf(number, sizeof number, "%d", va_arg(*list, int));
+        push(key, number, CLI_FIGURE);
     }
 }
 
-void cli_row_whole(cli_rows *rows, const char *key, uint64_t value)
+void cli_row(const char *fields, ...)
 {
-    char text[24];
-    snprintf(text, sizeof text, "%llu", (unsigned long long)value);
-    if (rows->json) {
-        json_key(rows, key);
-        fputs(text, stdout);
-    } else {
-        push(rows, key, text, true);
-    }
-}
-
-void cli_row_flag(cli_rows *rows, const char *key, bool value)
-{
-    cli_row_json(rows, key, value ? "true" : "false", value ? "yes" : "no");
-}
-
-void cli_row_end(cli_rows *rows)
-{
-    if (rows->json) {
-        if (rows->started) {
-            puts("}");
-            fflush(stdout);
+    va_list list;
+    va_start(list, fields);
+    for (const char *at = fields; *at && *at != '\n'; at += strspn(at, " ")) {
+        char key[64];
+        const size_t length = strcspn(at, " ");
+        snprintf(key, sizeof key, "%.*s", (int)length, at);
+        at += length + 1;
+        if (key[length - 1] == '?') {
+            const int value = va_arg(list, int);
+            key[length - 1] = '\0';
+            cli_row_json(key, value < 0 ? "null" : value ? "true" : "false", value < 0 ? "-" : value ? "yes" : "no");
+        } else {
+            put_field(key, at, &list);
         }
-        rows->started = false;
-    } else {
-        push(rows, NULL, NULL, false);
+        at += strcspn(at, " \n");
+    }
+    va_end(list);
+    if (fields[strlen(fields) - 1] == '\n') {
+        cli_row_end();
     }
 }
 
-int cli_rows_close(cli_rows *rows, int code)
+static void free_cells(void)
 {
-    if (!rows->failed && !rows->json) {
+    for (size_t i = 0; i < rows.n; i++) {
+        free(rows.cells[i].key);
+        free(rows.cells[i].text);
+    }
+    rows.n = 0;
+}
+
+void cli_row_end(void)
+{
+    if (format != CLI_JSON) {
+        push(NULL, NULL, CLI_WORDS);
+    } else if (!rows.failed && rows.n) {
         cli_work_end();
-        print_table(rows->cells, rows->n, is_long || format != CLI_TEXT ? 0 : cli_terminal_width(STDOUT_FILENO));
+        for (size_t i = 0; i < rows.n; i++) {
+            putchar(i ? ',' : '{');
+            json_text(rows.cells[i].key);
+            putchar(':');
+            if (rows.cells[i].kind == CLI_WORDS) {
+                json_text(rows.cells[i].text);
+            } else {
+                fputs(rows.cells[i].text, stdout);
+            }
+        }
+        puts("}");
+        fflush(stdout);
+        free_cells();
     }
-    const bool failed = rows->failed;
-    for (size_t i = 0; i < rows->n; i++) {
-        free(rows->cells[i].key);
-        free(rows->cells[i].text);
+}
+
+int cli_rows_close(int code)
+{
+    if (!rows.failed && format != CLI_JSON) {
+        cli_work_end();
+        print_table(rows.cells, rows.n, is_long || format != CLI_TEXT ? 0 : cli_terminal_width(STDOUT_FILENO));
     }
-    free(rows->cells);
-    if (rows != &no_rows) {
-        free(rows);
-    }
-    return failed && code <= CLI_NO ? cli_no_memory() : code;
+    free_cells();
+    free(rows.cells);
+    rows.cells = NULL;
+    rows.capacity = 0;
+    return rows.failed && code <= CLI_NO ? cli_no_memory() : code;
 }

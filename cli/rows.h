@@ -9,9 +9,11 @@
 
 enum { CLI_MOST_COLUMNS = 64 };
 
+typedef enum cli_cell_kind { CLI_WORDS, CLI_FIGURE, CLI_LITERAL } cli_cell_kind; /* CLI_LITERAL: JSON as it stands */
+
 typedef struct cli_cell {
     char *key, *text;
-    bool is_number;
+    cli_cell_kind kind;
 } cli_cell;
 
 typedef enum cli_column_state { CLI_SHOWN, CLI_COMMON, CLI_LEFT_OUT } cli_column_state;

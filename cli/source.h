@@ -27,19 +27,19 @@ enum { CLI_ODDITIES = 4096 }; /* bytes of the text of koksma_points_oddities */
 
 /* Warns, unless --quiet, of what koksma_points_oddities finds in a file's points, but for the lines that are in `said`,
    which may be NULL. */
-void cli_warn_points(const cli_arguments *arguments, const char *path, const koksma_points *points, const char *said);
+void cli_warn_points(const cli_args *args, const char *path, const koksma_points *points, const char *said);
 
 /* Says, unless --quiet, that a pattern whose first 2^m points are a net or lattice is better at such a number.
    Returns whether that is so. */
-bool cli_warn_unbalanced(const cli_arguments *arguments, const koksma_spec *spec, uint64_t n);
+bool cli_warn_unbalanced(const cli_args *args, const koksma_spec *spec, uint64_t n);
 
 /* Does the first for the file of a pattern file:PATH, of which n points are taken, or any number if n is 0. Other patterns
    and what can't be read give no warning here. */
-void cli_warn_file(const cli_arguments *arguments, const char *pattern, uint64_t n);
+void cli_warn_file(const cli_args *args, const char *pattern, uint64_t n);
 
 /* Reads the points of an operand, which is a file or "-" for stdin, or generates them, with `seed`, for
    "[pattern:]SPEC@N[@DIM]". Allocates the points. Returns the exit code, which is not 0 after an error on stderr. */
-int cli_source_points(const cli_arguments *arguments, const char *source, uint64_t seed, const koksma_run *run,
+int cli_source_points(const cli_args *args, const char *source, uint64_t seed, const koksma_run *run,
                       koksma_points *points);
 
 /* Returns whether an operand is the name of a family of files, one set each, such as my_{n}_{seed}.npy. */
@@ -51,6 +51,10 @@ size_t cli_family_files(const char *family, glob_t *found);
 
 /* Whether `output` is a file that an operand names: itself, or the file or one of the family of files of a pattern. */
 bool cli_reads(const char *text, const char *output);
+
+/* Splits "[pattern:]SPEC@N[@DIM]" at its last one or two '@'. *dim is 0 if DIM is out of range. Returns false if the text
+   has another form. */
+bool cli_split(const char *text, char spec[KOKSMA_MAX_SPEC], size_t *n, int *dim);
 
 /* Returns the text behind "pattern:", or the text itself if it does not begin so. */
 const char *cli_spec_in(const char *text);
@@ -67,7 +71,7 @@ bool cli_pattern_item(const char *list, size_t i, char spec[KOKSMA_MAX_SPEC]);
 
 /* Removes "pattern:" and "@N" from each pattern of `text`, "[USE=]SPEC@N;..", and stores N, the number of samples a pixel,
    in *n. *n is 0 until a number is found. Returns false after an error if two numbers differ or N is not a number. */
-bool cli_take_counts(const cli_arguments *arguments, char *text, uint64_t *n);
+bool cli_take_counts(const cli_args *args, char *text, uint64_t *n);
 
 /* A parsed operand: a file, or a pattern with its number of points and dimensions. */
 typedef struct cli_source {
@@ -78,22 +82,22 @@ typedef struct cli_source {
 } cli_source;
 
 /* Parses an operand without reading its file. Returns the exit code, which is not 0 after an error on stderr. */
-int cli_source_open(const cli_arguments *arguments, const char *text, cli_source *source);
+int cli_source_open(const cli_args *args, const char *text, cli_source *source);
 
 /* Parses "[pattern:]SPEC[@N[@DIM]]", which is never taken for the name of a file. n and dim are 0 if the text does
    not give them. Returns the exit code, which is not 0 after an error on stderr. */
-int cli_pattern_open(const cli_arguments *arguments, const char *text, cli_source *source);
+int cli_pattern_open(const cli_args *args, const char *text, cli_source *source);
 
 /* cli_sources_expand completes the operands by -p, -n and -d, and returns the exit code; cli_sources_free frees them.
    The option parser calls both. */
-int cli_sources_expand(cli_arguments *arguments);
-void cli_sources_free(cli_arguments *arguments);
+int cli_sources_expand(cli_args *args);
+void cli_sources_free(cli_args *args);
 
 /* Warns that --seed has no effect on the points of `source`. */
-void cli_warn_one_set(const cli_arguments *arguments, const char *source);
+void cli_warn_one_set(const cli_args *args, const char *source);
 
 /* Checks the operands from number `first` on. Refuses to read stdin twice, also for two warps, and to read files for
    several trials, because a file is one set. Returns false after an error on stderr. */
-bool cli_sources_check(const cli_arguments *arguments, int first, uint64_t trials, size_t n_warps);
+bool cli_sources_check(const cli_args *args, int first, uint64_t trials, size_t n_warps);
 
 #endif

@@ -3,8 +3,6 @@
 #ifndef KOKSMA_CLI_STUDYING_H
 #define KOKSMA_CLI_STUDYING_H
 
-#include <stdatomic.h>
-
 #include <koksma/study.h>
 
 #include "cli.h"
@@ -12,51 +10,32 @@
 /* ---- The run of `koksma study` and `koksma reproduce` --------------------------------------------------- */
 
 /* Prints something of a study that has run. */
-typedef koksma_status cli_of_study(const cli_arguments *arguments, koksma_study *study, void *context);
+typedef koksma_status cli_of_study(const cli_args *args, koksma_study *study);
 
 /* Opens a study, runs it, writes its report, calls `then` unless it is NULL, and closes it; says what was done. In MPI
    ranks above 0, whose options have no folder, nothing is written, and `then` is not called. Returns the exit code. */
-int cli_study_run(const cli_arguments *arguments, const koksma_study_options *options, cli_work *work,
-                  cli_of_study *then, void *context);
-
-/* ---- `koksma study audit` ----------------------------------------------------------------------------- */
-
-/* Audits a study's folder and prints the result. Returns the exit code: CLI_NO if anything differs. */
-int cli_study_audit(const cli_arguments *arguments);
+int cli_study_run(const cli_args *args, const koksma_study_options *options, cli_work *work, cli_of_study *then);
 
 /* ---- The advice of `koksma rank` ---------------------------------------------------------------------- */
 
-/* Prints on stderr which pattern to use or what is undecided, and how many trials were made. */
+/* What stands before item i of n in a list such as "a, b and c". */
+const char *cli_between(size_t i, size_t n);
+
 /* Whether it is decided which pattern to use: the best, or one that exceeds it by at most KOKSMA_RANK_TIE. */
 bool cli_rank_decided(const koksma_ranking *ranking);
+/* Prints on stderr which pattern to use or what is undecided, and how many trials were made. */
 void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking);
 /* Prints what a koksma_rank_look gets, on stderr, the least error first. */
 void cli_rank_say_look(const koksma_rank_options *options, const double *errors);
 
 /* Prints how many samples of each pattern leave the error of --target-error. spp: N of a pattern SPEC@N, or 0. Returns the
    exit code. */
-int cli_rank_to_error(const cli_arguments *arguments, const koksma_rank_options *options, uint64_t spp);
+int cli_rank_to_error(const cli_args *args, const koksma_rank_options *options, uint64_t spp);
 
-/* ---- `koksma rank --with` ------------------------------------------------------------------------------ */
-
-/* The command of --with, and what its first picture tells of the time. */
-typedef struct cli_outside {
-    const char *command;
-    size_t patterns;
-    int spp;
-    bool quiet, reference; /* reference: the first pictures are those of a reference */
-    atomic_bool timed;     /* a picture of the full number of samples has been timed */
-} cli_outside;
-
-/* Renders a picture for a koksma_rank_renderer whose context is a cli_outside. */
-koksma_status cli_render_outside(void *context, const koksma_rank_picture *picture, const koksma_run *run,
-                                 koksma_image *image);
+/* ---- `koksma rank --filter-with` ------------------------------------------------------------------------------ */
 
 /* The text of --filter-with. text: room for "blur:sd=" and a number. */
 enum { CLI_PROCESS_TEXT = CLI_NUMBER + 16 };
 const char *cli_process_text(const koksma_rank_options *options, char text[CLI_PROCESS_TEXT]);
-
-/* Blurs a trial's image for a koksma_rank_process whose context is a standard deviation (double). */
-koksma_status cli_blur(void *context, const koksma_image *image, const koksma_run *run, koksma_image *out);
 
 #endif

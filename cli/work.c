@@ -6,6 +6,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -110,17 +111,16 @@ static void show(cli_work *work, double fraction)
         return;
     }
     work->updated_s = now;
-    int used = snprintf(text, sizeof text, "%.150s", work->what);
+    snprintf(text, sizeof text, "%.150s", work->what);
     if (!work->unknown) {
-        used += snprintf(text + used, sizeof text - (size_t)used, " %3.0f %%", 100 * work->fraction);
+        CLI_APPEND(text, sizeof text, " %3.0f %%", 100 * work->fraction);
     }
     if (work->limit_s > 0) {
-        snprintf(text + used, sizeof text - (size_t)used, ", at most %s left",
-                 cli_duration(fmax(work->limit_s - elapsed, 0), left));
+        CLI_APPEND(text, sizeof text, ", at most %s left", cli_duration(fmax(work->limit_s - elapsed, 0), left));
     } else if (work->unknown && elapsed > 1) {
-        snprintf(text + used, sizeof text - (size_t)used, ", %s so far", cli_duration(elapsed, left));
+        CLI_APPEND(text, sizeof text, ", %s so far", cli_duration(elapsed, left));
     } else if (work->reached > 0.01 && elapsed > 1) {
-        snprintf(text + used, sizeof text - (size_t)used, ", %s left", cli_duration(seconds_left(work, now), left));
+        CLI_APPEND(text, sizeof text, ", %s left", cli_duration(seconds_left(work, now), left));
     }
     const int width = cli_terminal_width(STDERR_FILENO);
     fprintf(stderr, "\r\033[K%.*s", width ? width - 1 : (int)sizeof text, text);
@@ -130,31 +130,25 @@ static void show(cli_work *work, double fraction)
 
 static bool keep_going(void *context, double fraction)
 {
-    show(context, fraction);
+    const cli_work *work = context;
+    if (work->visible) {
+        show(context, fraction);
+    }
     return !cli_interrupted();
 }
 
-static bool keep_going_silently(void *context, double fraction)
-{
-    (void)context;
-    (void)fraction;
-    return !cli_interrupted();
-}
-
-bool cli_work_begin(const cli_arguments *arguments, const char *what, cli_work *work)
+bool cli_work_begin(const cli_args *args, const char *what, cli_work *work)
 {
     uint64_t threads;
     enum { AUTOMATIC, ALWAYS };
     int when = AUTOMATIC;
-    if (!cli_whole(arguments, "threads", 0, 1, 256, &threads) || !cli_choice(arguments, "progress", &when)) {
+    if (!cli_whole(args, "threads", 0, 1, 256, &threads) || !cli_choice(args, "progress", &when)) {
         return false;
     }
-    const bool visible =
-        !cli_flag(arguments, "quiet") && (when == ALWAYS || (when == AUTOMATIC && isatty(STDERR_FILENO)));
+    const bool visible = !cli_flag(args, "quiet") && (when == ALWAYS || (when == AUTOMATIC && isatty(STDERR_FILENO)));
     *work = (cli_work){.what = what, .share = 1, .visible = visible, .started_s = cli_seconds()};
     work->part_s = work->started_s;
-    work->run = (koksma_run){
-        .threads = (int)threads, .keep_going = visible ? keep_going : keep_going_silently, .context = work};
+    work->run = (koksma_run){.threads = (int)threads, .keep_going = keep_going, .context = work};
 #ifndef _WIN32
     /* with SIGXFSZ ignored, a write beyond the limit on file sizes fails instead of killing the program */
     signal(SIGXFSZ, SIG_IGN);

@@ -9,15 +9,15 @@
 
 enum { MAX_ARGUMENTS = 64 };
 
-static int read_all(const cli_arguments *arguments)
+static int read_all(const cli_args *args)
 {
     char item[KOKSMA_MAX_SPEC];
-    for (const cli_option *o = arguments->command->options; o->name; o++) {
+    for (const cli_option *o = args->command->options; o->name; o++) {
         uint64_t whole;
         double real;
-        cli_whole(arguments, o->name, 0, 1, 100, &whole);
-        cli_real(arguments, o->name, 0, -1, 1, &real);
-        const char *text = cli_text(arguments, o->name, NULL);
+        cli_whole(args, o->name, 0, 1, 100, &whole);
+        cli_real(args, o->name, 0, -1, 1, &real);
+        const char *text = cli_text(args, o->name, NULL);
         for (size_t i = 0; text && i < 1000 && cli_list_item(text, i, item, sizeof item); i++) {
         }
     }

@@ -45,19 +45,16 @@ static void fill(const koksma_filter *filter, bool response, double *xs, double 
 
 static int draw(cli_curves *c)
 {
-    const cli_arguments *arguments = c->arguments;
+    const cli_args *args = c->args;
     const bool response = c->curve == &cli_curve_filter_response;
-    const int n = arguments->n_operands;
+    const int n = args->n_operands;
     const koksma_filter *filters[CLI_MAX_PANELS];
     koksma_curve curves[CLI_MAX_PANELS] = {{0}};
     char labels[CLI_MAX_PANELS][LABEL];
     for (int i = 0; i < n; i++) {
-        filters[i] = koksma_filter_find(arguments->operands[i]);
+        filters[i] = koksma_filter_find(args->operands[i]);
         if (!filters[i]) {
-            char meant[96];
-            return cli_usage_error(arguments, "no filter '%s'; %s'koksma list filters' names them",
-                                   arguments->operands[i],
-                                   cli_meant(arguments->operands[i], cli_filter_name, NULL, meant));
+            return cli_no_member(args, "filter", args->operands[i]);
         }
     }
     double *numbers = malloc(2 * POSITIONS * (size_t)n * sizeof *numbers);

@@ -41,12 +41,6 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
     return code;
 }
 
-static double pairs_of_random(const cli_curves *c)
-{
-    (void)c;
-    return 1;
-}
-
 const cli_curve cli_curve_pairs = {
     .name = "pairs",
     .meaning = "the pair correlation on the torus; random points have 1",
@@ -61,5 +55,5 @@ const cli_curve cli_curve_pairs = {
              .y_label = "relative density; dashed: 1, as for random points",
              .y = 1,
              .error = 2,
-             .level = pairs_of_random},
+             .level = 1},
 };

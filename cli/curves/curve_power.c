@@ -18,7 +18,7 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
     if (s.sets > 0 && c->output) {
         const koksma_status status = c->curve->print.write(c, &s);
         koksma_spectrum_fini(&s);
-        return code ? code : status ? cli_fail(c->arguments, status) : CLI_YES;
+        return code ? code : status ? cli_fail(c->args, status) : CLI_YES;
     }
     for (int ky = 0; ky <= s.half && s.sets > 0; ky++) {
         for (int kx = -s.half; kx <= s.half; kx++) {
@@ -64,14 +64,14 @@ static koksma_status write(cli_curves *c, const koksma_spectrum *s)
 
 static int draw(cli_curves *c)
 {
-    const int n = c->arguments->n_operands;
+    const int n = c->args->n_operands;
     koksma_spectrum spectra[CLI_MAX_PANELS] = {{0}};
     koksma_panel panels[CLI_MAX_PANELS] = {{0}};
     char titles[CLI_MAX_PANELS][CLI_CHART_LABEL];
     double white;
-    int code = cli_real(c->arguments, "white", 2, 1e-9, 1e9, &white) ? CLI_YES : CLI_USAGE;
+    int code = cli_real(c->args, "white", 2, 1e-9, 1e9, &white) ? CLI_YES : CLI_USAGE;
     for (int i = 0; i < n && !code; i++) {
-        const char *source = c->arguments->operands[i];
+        const char *source = c->args->operands[i];
         code = cli_curves_spectrum(c, source, 2, &spectra[i]);
         panels[i] = (koksma_panel){.spectrum = &spectra[i], .white = white, .title = cli_title(source, titles[i])};
     }

@@ -65,16 +65,17 @@ static koksma_status add_set(cli_curves *c, const koksma_points *points, void *c
 }
 
 /* Computes the ratios of a source, and passes to the sink one row for each size, or their mean and maximum. */
-static int compute(cli_curves *c, const char *source, cli_sink *sink, bool each)
+static int compute(cli_curves *c, const char *source, cli_sink *sink)
 {
+    const bool each = c->curve == &cli_curve_prefix_ratios;
     prefixes p = {0};
     int code = cli_curves_each_set(c, source, add_set, &p);
     double mean = 0, worst = 0, at = 0;
     if (!code && p.count == 0) {
-        code = cli_usage_error(c->arguments,
-                               "%s: no prefix has a size whose smallest star discrepancy is stored; 8 or more points "
-                               "in 2 or 3 dimensions would do ('koksma list records')",
-                               source);
+        code = cli_error(c->args,
+                         "%s: no prefix has a size whose smallest star discrepancy is stored; 8 or more points "
+                         "in 2 or 3 dimensions would do ('koksma list records')",
+                         source);
     }
     for (size_t i = 0; i < p.count && !code; i++) {
         const double n = (double)p.sizes[i].n, star = p.sizes[i].sum / (double)p.sets,
@@ -94,22 +95,6 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink, bool each)
     return code;
 }
 
-static int compute_means(cli_curves *c, const char *source, cli_sink *sink)
-{
-    return compute(c, source, sink, false);
-}
-
-static int compute_ratios(cli_curves *c, const char *source, cli_sink *sink)
-{
-    return compute(c, source, sink, true);
-}
-
-static double level_of_records(const cli_curves *c)
-{
-    (void)c;
-    return 1;
-}
-
 const cli_curve cli_curve_prefixes = {
     .name = "prefixes",
     .meaning =
@@ -117,7 +102,7 @@ const cli_curve cli_curve_prefixes = {
         "points to that of the best known set of n points, for n = 8, 9, .. up to the number of points, as "
         "far as 'koksma list records' has a set; with --trials ratios of the mean discrepancy",
     .cite = "clement2023",
-    .compute = compute_means,
+    .compute = compute,
     .columns = {"mean", "worst", "worst_n"},
     .print = {.options = "trials"},
 };
@@ -126,7 +111,7 @@ const cli_curve cli_curve_prefix_ratios = {
     .name = "prefix-ratios",
     .meaning = "these ratios for each n",
     .cite = "clement2023",
-    .compute = compute_ratios,
+    .compute = compute,
     .columns = {"n", "star", "record", "ratio"},
     .print = {.options = "trials"},
     .plot = {.options = "trials",
@@ -135,6 +120,6 @@ const cli_curve cli_curve_prefix_ratios = {
              .x_label = "n",
              .y_label = "ratio to the best known set",
              .y = 3,
-             .level = level_of_records,
+             .level = 1,
              .mixes_files = true},
 };

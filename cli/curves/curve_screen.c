@@ -16,25 +16,25 @@ static int compute(cli_curves *c, const char *source, cli_sink *sink)
     cli_source opened;
     koksma_screen_row rows[KOKSMA_SCREEN_MAX_DIM];
     koksma_screen_options options = {.side = SIDE, .seed = c->seed, .trials = c->trials};
-    const int code = cli_source_open(c->arguments, source, &opened);
+    const int code = cli_source_open(c->args, source, &opened);
     if (code) {
         return code;
     }
     if (!opened.is_pattern) {
-        return cli_usage_error(c->arguments, "%s: screen takes patterns, SPEC@N with N samples a pixel", source);
+        return cli_error(c->args, "%s: screen takes patterns, SPEC@N with N samples a pixel", source);
     }
     options.dim = opened.dim;
     options.spp = opened.n;
     koksma_status status =
-        koksma_mask_filter_parse(cli_text(c->arguments, "filter", "gaussian:sigma=1.5"), &options.filter);
+        koksma_mask_filter_parse(cli_text(c->args, "filter", "gaussian:sigma=1.5"), &options.filter);
     if (!status) {
-        const size_t all = (size_t)c->arguments->n_operands - 1;
+        const size_t all = (size_t)c->args->n_operands - 1;
         cli_work_part(&c->work, c->n_sets++ % all, all);
         status = koksma_screen_errors(&opened.spec, &options, &c->work.run, rows);
         cli_work_end();
     }
     if (status) {
-        return cli_fail(c->arguments, status);
+        return cli_fail(c->args, status);
     }
     sink->points = (double)opened.n;
     for (int k = 0; k < options.dim; k++) {
