@@ -257,120 +257,7 @@ TEST_CASE(a_luminous_room_is_a_geometric_series)
     }
 }
 
-/* The camera looks along -z at two luminous squares, of radiance 7 at distance 4 and 3 at distance 6, and at a sky of
-   radiance 1: it sees the first thing between its planes, and no light at all if it hides them. max_depth counts segments
-   of paths, of which two are those without a bounce. */
-TEST_CASE(mitsubas_cameras_see_what_they_may)
-{
-    static const struct {
-        const char *sensor, *integrator;
-        double seen;
-        int depth;
-    } cases[] = {{"", "", 7, KOKSMA_MAX_DEPTH},
-                 {"<float name=\"near_clip\" value=\"5\"/>", "<integer name=\"max_depth\" value=\"2\"/>", 3, 0},
-                 {"<float name=\"far_clip\" value=\"3\"/>", "<integer name=\"max_depth\" value=\"9\"/>", 1, 7},
-                 {"<float name=\"nearClip\" value=\"5\"/><float name=\"farClip\" value=\"5.5\"/>",
-                  "<integer name=\"maxDepth\" value=\"-1\"/>", 1, KOKSMA_MAX_DEPTH},
-                 {"", "<boolean name=\"hide_emitters\" value=\"true\"/>", 0, KOKSMA_MAX_DEPTH},
-                 {"", "<boolean name=\"hideEmitters\" value=\"false\"/>", 7, KOKSMA_MAX_DEPTH}};
-    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
-        char text[2048];
-        koksma_render_options options;
-        koksma_image image = {0};
-        snprintf(
-            text, sizeof text,
-            "<scene version=\"3.0.0\"><integrator type=\"path\">%s</integrator><sensor type=\"perspective\">%s"
-            "<float name=\"fov\" value=\"2\"/><transform name=\"to_world\"><lookat origin=\"0 0 5\" target=\"0 0 "
-            "0\" up=\"0 1 0\"/></transform></sensor><emitter type=\"constant\"/><shape type=\"rectangle\"><transform "
-            "name=\"to_world\"><translate z=\"1\"/></transform><emitter type=\"area\"><rgb name=\"radiance\" "
-            "value=\"7\"/></emitter></shape><shape type=\"rectangle\"><transform name=\"to_world\"><translate "
-            "z=\"-1\"/></transform><emitter type=\"area\"><rgb name=\"radiance\" value=\"3\"/></emitter></shape>"
-            "</scene>",
-            cases[i].integrator, cases[i].sensor);
-        koksma_scene *scene = opened("c.xml", text);
-        assert_int_equal(scene->n_unknown, 0);
-        koksma_render_options_init(&options, scene);
-        options.integrator = koksma_integrator_find("path");
-        options.width = options.height = 2;
-        options.spp = 1;
-        assert_int_equal(koksma_render_depth(scene, &options), cases[i].depth);
-        assert_ok(koksma_render(scene, &options, NULL, &image));
-        for (int p = 0; p < 4 * image.channels; p++) {
-            assert_near((double)image.pixels[p], cases[i].seen, 1e-6);
-        }
-        koksma_image_fini(&image);
-        options.depth = 3; /* the options' depth wins; integrators that do not trace paths have their own */
-        assert_int_equal(koksma_render_depth(scene, &options), 3);
-        options.depth = -1;
-        options.integrator = koksma_integrator_find("whitted");
-        assert_int_equal(koksma_render_depth(scene, &options), options.integrator->depth);
-        koksma_scene_close(scene);
-    }
-}
-
-/* Behind an absorbing shape a light of radiance 3 is seen through exp(-chord / 2): the middle of a ball of radius .5, of
-   one that is twice as long along z, and of a cube that is turned by 45 degrees. */
-TEST_CASE(media_fill_the_shapes_of_mitsuba)
-{
-    static const struct {
-        const char *shape;
-        double chord;
-    } cases[] = {
-        {"<shape type=\"sphere\"><float name=\"radius\" value=\"0.5\"/>", 1},
-        {"<shape type=\"sphere\"><transform name=\"to_world\"><scale x=\"0.5\" y=\"0.5\" z=\"1\"/></transform>", 2},
-        {"<shape type=\"cube\"><transform name=\"to_world\"><rotate y=\"1\" angle=\"45\"/></transform>",
-         2.8284271247461901}};
-    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
-        char text[2048];
-        koksma_render_options options;
-        koksma_image image = {0};
-        snprintf(
-            text, sizeof text,
-            "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"0.01\"/><transform "
-            "name=\"to_world\"><lookat origin=\"0 0 5\" target=\"0 0 0\" up=\"0 1 0\"/></transform></sensor><shape "
-            "type=\"rectangle\"><transform name=\"to_world\"><translate z=\"-3\"/></transform><emitter "
-            "type=\"area\"><rgb "
-            "name=\"radiance\" value=\"3\"/></emitter></shape>%s<bsdf type=\"null\"/><medium name=\"interior\" "
-            "type=\"homogeneous\"><float name=\"sigma_t\" value=\"0.5\"/><float name=\"albedo\" "
-            "value=\"0\"/></medium>"
-            "</shape></scene>",
-            cases[i].shape);
-        koksma_scene *scene = opened("f.xml", text);
-        assert_int_equal(scene->n_unknown, 0);
-        koksma_render_options_init(&options, scene);
-        options.integrator = koksma_integrator_find("path");
-        options.width = options.height = options.spp = 1;
-        assert_ok(koksma_render(scene, &options, NULL, &image));
-        assert_near((double)image.pixels[0], 3 * exp(-cases[i].chord / 2), 5e-4);
-        koksma_image_fini(&image);
-        koksma_scene_close(scene);
-    }
-}
-
 /* ---- Cameras' windows, invisible lights, spectra ------------------------------------------------------------------ */
-
-/* The vertical angle is that of the screen window's height at the distance where pbrt's fov spans -1 to 1 (Pharr, Jakob
-   and Humphreys 2023, section 5.2.2): with fov 90, 2 atan(half the height). */
-TEST_CASE(the_screen_window_sets_the_angle)
-{
-    static const struct {
-        const char *camera;
-        double half;
-    } cases[] = {{"\"float fov\" 90", 1},
-                 {"\"float fov\" 90 \"float screenwindow\" [-1 1 -0.75 0.75]", 0.75},
-                 {"\"float fov\" 60 \"float screenwindow\" [-2 2 -1.5 1.5]", 0.86602540378443865},
-                 {"\"float fov\" 90 \"float frameaspectratio\" 1.3333333", 1}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[512];
-        snprintf(text, sizeof text,
-                 "Camera \"perspective\" %s Film \"rgb\" " SIZE " WorldBegin LightSource \"point\" Shape \"sphere\"",
-                 cases[i].camera);
-        koksma_scene *scene = opened("w.pbrt", text);
-        assert_int_equal(scene->n_unknown, 0);
-        assert_near(scene->camera.fov_rad, 2 * atan(cases[i].half), 1e-6);
-        koksma_scene_close(scene);
-    }
-}
 
 /* A light whose shape has alpha 0 shines, and no ray meets it; a shape with alpha 0 is not there. Below the centre of a
    disk of radius r and radiance L at distance d the irradiance is pi L r^2 / (r^2 + d^2). */
@@ -568,7 +455,6 @@ TEST_CASE(shutters_outlast_motions)
 /* A sensor within a medium, whose inside and the rest of the scene are given. */
 #define FOGGY_HEAD "<scene version=\"3.0.0\"><medium type=\"homogeneous\" id=\"f\">"
 #define FOGGY_TAIL "</medium><sensor type=\"perspective\"><ref id=\"f\"/></sensor>\n"
-#define FOGGY(inside, rest) FOGGY_HEAD inside FOGGY_TAIL rest "</scene>"
 
 /* ---- Textures of pbrt ---------------------------------------------------------------------------------------------- */
 
@@ -680,61 +566,10 @@ TEST_CASE(environments_have_a_shape)
     unlink(path);
 }
 
-/* pbrt looks up a checkerboard at (su u, sv v), whose squares are 1 wide; turned by 180 degrees they are where they
-   were. */
-TEST_CASE(checkerboards_are_scaled_as_in_pbrt)
-{
-    static const struct {
-        double scale, period;
-        const char *said;
-    } cases[] = {{4, 0.25, ""},
-                 {-4, 0.25, ""},
-                 {1e-5, 1e5, ""},
-                 {-1e-7, 1e6, ":1: a checkerboard's uscale of -1e-07 is replaced by 1e-6"},
-                 {0, 1e6, ":1: a checkerboard's uscale of 0 is replaced by 1e-6"}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[512], warning[256] = "";
-        snprintf(text, sizeof text,
-                 "Camera \"perspective\" WorldBegin Texture \"t\" \"spectrum\" \"checkerboard\" \"float uscale\" %g "
-                 "\"float vscale\" %g Material \"diffuse\" \"texture reflectance\" \"t\"",
-                 cases[i].scale, cases[i].scale);
-        koksma_scene *scene = opened("a.pbrt", text);
-        const koksma__material *m = &scene->materials[scene->n_materials - 1];
-        koksma_scene_unknown(scene, 0, warning, sizeof warning);
-        assert_true(m->checker);
-        assert_near(m->period, cases[i].period, 1e-6 * cases[i].period);
-        assert_true(strstr(warning, cases[i].said) && (*cases[i].said || !*warning));
-        koksma_scene_close(scene);
-    }
-}
-
 /* ---- Lights with two sides ------------------------------------------------------------------------------------------ */
 
-/* A square light, with a surface that reflects or without, seen from behind. */
-TEST_CASE(lights_of_pbrt_may_have_two_sides)
-{
-    for (int i = 0; koksma_mesh_tracer() && i < 4; i++) {
-        const bool both = i & 1;
-        char text[1024];
-        snprintf(text, sizeof text,
-                 "LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 1 Film \"rgb\" " SIZE
-                 " WorldBegin Material "
-                 "%s AreaLightSource \"diffuse\" \"rgb L\" [2 2 2] \"bool twosided\" %s Shape \"trianglemesh\" "
-                 "\"point3 P\" "
-                 "[-1 -1 0  -1 1 0  1 1 0  1 -1 0] \"integer indices\" [0 1 2 0 2 3]",
-                 i & 2 ? "\"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]" : "\"interface\"", both ? "true" : "false");
-        koksma_scene *scene = opened("sides.pbrt", text);
-        koksma_render_options options = options_of(scene, "random", "path", 4, 8);
-        assert_int_equal(scene->n_unknown, 0);
-        double error;
-        const double mean = mean_of(scene, &options, &error);
-        assert_near(mean, both ? 2 : 0, 1e-6);
-        koksma_scene_close(scene);
-    }
-}
-
-/* What its back lights: a floor at distance 1 behind a square of side 2, by samples of the light alone, by rays alone,
-   and by both. The configuration factor of a quarter from below its corner, with X = Y = 1, is
+/* What the back of a light lights: a floor at distance 1 behind a square of side 2, by samples of the light alone, by rays
+   alone, and by both. The configuration factor of a quarter from below its corner, with X = Y = 1, is
        1 / (2 pi) (X / sqrt(1 + X^2) atan(Y / sqrt(1 + X^2)) + the same with X and Y swapped). */
 TEST_CASE(both_sides_light_alike)
 {
@@ -769,18 +604,6 @@ TEST_CASE(both_sides_light_alike)
 #define MITSUBA_HEAD                                                                                                 \
     "<scene version=\"3.0.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor>\n"
 #define MITSUBA(rest) MITSUBA_HEAD rest "</scene>"
-
-#define WHITE(inner)                                                                                                 \
-    "<texture name=\"reflectance\" type=\"bitmap\"><string name=\"filename\" value=\"white.pfm\"/>" inner "</"       \
-    "texture>"
-#define IMAGED(colour) MITSUBA("<shape type=\"rectangle\"><bsdf type=\"diffuse\">" colour "</bsdf></shape>")
-#define IMAGE(inner) IMAGED(WHITE(inner))
-
-#define CAMERA "<sensor type=\"perspective\"/>"
-
-#define CHECKED(to_uv)                                                                                               \
-    IMAGED("<texture name=\"reflectance\" type=\"checkerboard\"><transform name=\"to_uv\">" to_uv                    \
-           "</transform></texture>")
 
 #define FOG                                                                                                          \
     "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0.1 0.2 0.3] \"rgb sigma_s\" [0 0.1 "  \
@@ -833,97 +656,6 @@ TEST_CASE(unknown_things_are_named)
 {
     write_white();
     assert_true(each_text("scene/texts.txt", shared, look_at_kind) > 200);
-}
-
-/* A <ref> is one more of the object that it leads to, as Mitsuba 3.9.1 renders it: a film, a part of a group, a light and a
-   shape of the scene. An <alias> is none. An included file is the children of a <scene>, or another object. */
-TEST_CASE(references_and_includes_are_objects)
-{
-    static const struct {
-        const char *text, *included;
-        int width;
-        size_t n_shapes, n_lights;
-    } cases[] = {
-        {"<film type=\"hdrfilm\" id=\"f\"><integer name=\"width\" value=\"32\"/></film><sensor "
-         "type=\"perspective\"><ref id=\"f\"/></sensor>",
-         "<scene/>", 32, 0, 0},
-        {CAMERA "<shape type=\"shapegroup\" id=\"g\"><ref id=\"s\"/></shape><shape type=\"sphere\" "
-                "id=\"s\"/><shape type=\"instance\"><ref id=\"g\"/></shape>",
-         "<scene/>", 768, 2, 0},
-        {CAMERA "<emitter type=\"point\" id=\"e\"/><ref id=\"e\"/>", "<scene/>", 768, 0, 2},
-        {CAMERA "<shape type=\"sphere\" id=\"s\"/><ref id=\"s\"/>", "<scene/>", 768, 2, 0},
-        {CAMERA "<emitter type=\"point\" id=\"e\"/><alias id=\"e\" as=\"f\"/>", "<scene/>", 768, 0, 1},
-        {CAMERA, "<scene><shape type=\"sphere\"/><emitter type=\"point\"/></scene>", 768, 1, 1},
-        {CAMERA, "<shape version=\"3.0.0\" type=\"sphere\"><float name=\"radius\" value=\"2\"/></shape>", 768, 1, 0},
-        {CAMERA "<shape type=\"sphere\"><ref id=\"b\"/></shape>",
-         "<bsdf version=\"3.0.0\" type=\"diffuse\" id=\"b\"/>", 768, 1, 0}};
-    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
-        char text[1024];
-        write_file("o.xml", cases[i].included);
-        snprintf(text, sizeof text, "<scene version=\"3.0.0\">%s<include filename=\"o.xml\"/></scene>",
-                 cases[i].text);
-        koksma_scene *scene = opened("a.xml", text);
-        assert_that(scene->width == cases[i].width && scene->n_shapes == cases[i].n_shapes &&
-                        scene->n_lights == cases[i].n_lights && !scene->n_unknown,
-                    "%s and %s: width %d, %zu shapes, %zu lights, %zu warnings", text, cases[i].included,
-                    scene->width, scene->n_shapes, scene->n_lights, scene->n_unknown);
-        koksma_scene_close(scene);
-    }
-}
-
-/* Mitsuba 3 looks an image up at its `to_uv` of (u, v, 0), without the third row and column of that: those numbers of a
-   <matrix> of nine which would move the image if it were one of the plane do nothing (3.9.1, eval() of a bitmap). */
-TEST_CASE(images_are_mapped_as_in_mitsuba)
-{
-    static const struct {
-        const char *to_uv;
-        float matrix[6];
-    } cases[] = {{"<translate x=\"0.25\" y=\"-0.5\" z=\"8\"/>", {1, 0, 0.25F, 0, 1, -0.5F}},
-                 {"<translate x=\"0.25\"/><scale x=\"2\" y=\"4\"/>", {2, 0, 0.5F, 0, 4, 0}},
-                 {"<translate y=\"0.25\"/><rotate z=\"1\" angle=\"90\"/>", {0, -1, -0.25F, 1, 0, 0}},
-                 {"<matrix value=\"1 2 3 4 5 6 7 8 9\"/>", {1, 2, 0, 4, 5, 0}},
-                 {"<matrix value=\"1 2 3 4 5 6 7 8 9 10 11 12 0 0 0 1\"/>", {1, 2, 4, 5, 6, 8}}};
-    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
-        char text[1024];
-        snprintf(text, sizeof text, IMAGE("<transform name=\"to_uv\">%s</transform>"), cases[i].to_uv);
-        write_white();
-        koksma_scene *scene = opened("a.xml", text);
-        const koksma__material *m = &scene->materials[0];
-        assert_int_equal(scene->n_unknown, 0);
-        assert_true(m->image && m->mapping.moved);
-        for (int k = 0; k < 6; k++) {
-            assert_near((double)m->mapping.matrix[k], (double)cases[i].matrix[k], 1e-6);
-        }
-        koksma_scene_close(scene);
-    }
-}
-
-/* In Mitsuba the square of (u, v) is found by to_uv, and has sides of one half; Mitsuba 3 makes a to_uv of the four numbers
-   of Mitsuba 0.6, which moves before it scales. */
-TEST_CASE(checkerboards_are_mapped_as_in_mitsuba)
-{
-    static const struct {
-        const char *text;
-        float matrix[6];
-    } cases[] = {{CHECKED("<scale x=\"2\" y=\"3\"/>"), {2, 0, 0, 0, 3, 0}},
-                 {CHECKED("<translate x=\"0.25\"/><scale value=\"2\"/>"), {2, 0, 0.5f, 0, 2, 0}},
-                 {CHECKED("<scale value=\"2\"/><rotate z=\"1\" angle=\"90\"/>"), {0, -2, 0, 2, 0, 0}},
-                 {CHECKED("<matrix value=\"1 0.5 0 0.1 0 1 0 0 0 0 1 0 0 0 0 1\"/>"), {1, 0.5f, 0.1f, 0, 1, 0}},
-                 {IMAGED("<texture name=\"reflectance\" type=\"checkerboard\"><float "
-                         "name=\"uscale\" value=\"8\"/><float name=\"vscale\" value=\"4\"/><float name=\"uoffset\" "
-                         "value=\"0.5\"/><float name=\"voffset\" value=\"0.25\"/></texture>"),
-                  {8, 0, 4, 0, 4, 1}}};
-    for (size_t i = 0; can_read("probe.xml") && i < sizeof cases / sizeof *cases; i++) {
-        koksma_scene *scene = opened("a.xml", cases[i].text);
-        const koksma__material *m = &scene->materials[0];
-        assert_int_equal(scene->n_unknown, 0);
-        assert_true(m->checker && m->mapping.moved);
-        assert_near(m->period, 0.5, 1e-9);
-        for (int k = 0; k < 6; k++) {
-            assert_near((double)m->mapping.matrix[k], (double)cases[i].matrix[k], 1e-6);
-        }
-        koksma_scene_close(scene);
-    }
 }
 
 /* Writes two.pfm, of 2 x 2 pixels. Its path is put into `path`. */
@@ -1057,37 +789,6 @@ TEST_CASE(files_without_uv_have_their_peers)
         }
         koksma_scene_close(scene);
     }
-}
-
-/* Of a light of pbrt-v4 with a sampled spectrum only the colour counts: it has luminance 1. */
-TEST_CASE(lights_of_pbrt_have_luminance_1)
-{
-    koksma_scene *scene =
-        opened("a.pbrt", PBRT "LightSource \"point\" \"spectrum I\" [400 0 500 80 600 156 700 184]");
-    const double *rgb = scene->lights[0].radiance;
-    assert_near(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2], 1, 1e-3);
-    assert_near(rgb[0] / rgb[1], 20.7108 / 10.8546, 0.02); /* by Mitsuba */
-    koksma_scene_close(scene);
-}
-
-/* Points of the medium do not glow where the first triangle does: a light 1,000 away through fog shows nothing. */
-TEST_CASE(fog_does_not_glow)
-{
-    koksma_scene *scene =
-        opened("dark.pbrt", FOG "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5] Shape \"trianglemesh\" "
-                                "\"integer indices\" [0 1 2] \"point3 P\" [0 0 1000  0 1 1000  1 0 1000]");
-    koksma_render_options options = options_of(scene, "random", "path", 16, 8);
-    koksma_image image;
-    const koksma_status status = koksma_render(scene, &options, NULL, &image);
-    assert_true(scene->placements[0].light >= 0 && scene->placements[0].material >= 0);
-    if (status != KOKSMA_UNSUPPORTED) { /* a build without Embree */
-        assert_ok(status);
-        for (size_t i = 0; i < 8 * 8 * 3; i++) {
-            assert_true(image.pixels[i] == 0);
-        }
-        koksma_image_fini(&image);
-    }
-    koksma_scene_close(scene);
 }
 
 /* ---- What is refused ---------------------------------------------------------------------------------------------- */
