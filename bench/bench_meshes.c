@@ -124,12 +124,10 @@ static void make_rays(bool camera, koksma__rays *blocks)
             o[k] = 2 * uniform() - 1;
             d[k] = 2 * uniform() - 1 - o[k];
         }
-        r->ox[lane] = (float)o[0];
-        r->oy[lane] = (float)o[1];
-        r->oz[lane] = (float)o[2];
-        r->dx[lane] = (float)d[0];
-        r->dy[lane] = (float)d[1];
-        r->dz[lane] = (float)d[2];
+        for (int k = 0; k < 3; k++) {
+            r->o[k][lane] = (float)o[k];
+            r->d[k][lane] = (float)d[k];
+        }
         r->time[lane] = 0;
     }
 }
@@ -156,12 +154,12 @@ static RTCScene bare_scene(RTCDevice device, const koksma__mesh *m)
         _Alignas(64) int valid[width];                                                                               \
         struct RTCRayHit##width p;                                                                                   \
         const size_t size = width * sizeof(float);                                                                   \
-        memcpy(p.ray.org_x, r->ox + start, size);                                                                    \
-        memcpy(p.ray.org_y, r->oy + start, size);                                                                    \
-        memcpy(p.ray.org_z, r->oz + start, size);                                                                    \
-        memcpy(p.ray.dir_x, r->dx + start, size);                                                                    \
-        memcpy(p.ray.dir_y, r->dy + start, size);                                                                    \
-        memcpy(p.ray.dir_z, r->dz + start, size);                                                                    \
+        memcpy(p.ray.org_x, r->o[0] + start, size);                                                                  \
+        memcpy(p.ray.org_y, r->o[1] + start, size);                                                                  \
+        memcpy(p.ray.org_z, r->o[2] + start, size);                                                                  \
+        memcpy(p.ray.dir_x, r->d[0] + start, size);                                                                  \
+        memcpy(p.ray.dir_y, r->d[1] + start, size);                                                                  \
+        memcpy(p.ray.dir_z, r->d[2] + start, size);                                                                  \
         for (int i = 0; i < width; i++) {                                                                            \
             valid[i] = -1;                                                                                           \
             p.ray.tnear[i] = p.ray.time[i] = 0;                                                                      \

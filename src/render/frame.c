@@ -47,10 +47,9 @@ static koksma__batch_camera make_camera(const koksma__camera *from, int width, i
 
 void koksma__move_origins(const koksma__frame *f, const float *film, int n, koksma__rays *rays)
 {
-    float *const o[3] = {rays->ox, rays->oy, rays->oz};
     for (int k = 0; k < 3 && f->scene->camera.height > 0; k++) {
         for (int i = 0; i < n; i++) {
-            o[k][i] += f->origins[0][k] + film[2 * i] * f->origins[1][k] + film[2 * i + 1] * f->origins[2][k];
+            rays->o[k][i] += f->origins[0][k] + film[2 * i] * f->origins[1][k] + film[2 * i + 1] * f->origins[2][k];
         }
     }
 }

@@ -125,58 +125,6 @@ koksma__stretch koksma__medium_stretch(const koksma__medium *m, const float orig
     return (koksma__stretch){first, last > first ? smaller((last - first) * speed, DBL_MAX) : 0, speed};
 }
 
-void koksma__medium_transmittance(const koksma__medium *m, const float o[3], const float d[3], double end,
-                                  float out[3])
-{
-    const koksma__stretch inside = koksma__medium_stretch(m, o, d, end);
-    for (int k = 0; k < 3; k++) {
-        const bool same = k > 0 && koksma__medium_extinction(m, k) == koksma__medium_extinction(m, k - 1);
-        out[k] = same ? out[k - 1] : (float)koksma__exp(-koksma__medium_extinction(m, k) * inside.length);
-    }
-}
-
-/* Chooses a channel by *u in proportion to beta and makes *u a number in [0,1) for the distance. */
-static int choose_channel(const float beta[3], double share[3], double *u)
-{
-    const double sum = (double)beta[0] + (double)beta[1] + (double)beta[2];
-    double rest = *u;
-    int chosen = 0;
-    for (int k = 0; k < 3; k++) {
-        share[k] = sum > 0 ? (double)beta[k] / sum : 1.0 / 3;
-    }
-    while (chosen < 2 && rest >= share[chosen]) {
-        rest -= share[chosen++];
-    }
-    *u = share[chosen] > 0 ? larger(0, smaller(rest / share[chosen], 1 - 0x1p-30)) : 0;
-    return chosen;
-}
-
-bool koksma__medium_sample(const koksma__medium *m, const float o[3], const float d[3], double end, float u,
-                           const float beta[3], float *t, float weight[3])
-{
-    if (m->scattering[0] == 0 && m->scattering[1] == 0 && m->scattering[2] == 0) {
-        koksma__medium_transmittance(m, o, d, end, weight);
-        return false;
-    }
-    const bool grey = koksma__medium_is_grey(m);
-    double share[3] = {0}, rest = (double)u;
-    const double chosen = koksma__medium_extinction(m, grey ? 0 : choose_channel(beta, share, &rest));
-    const koksma__stretch inside = koksma__medium_stretch(m, o, d, end);
-    const double s = chosen > 0 ? -koksma__log(1 - rest) / chosen : (double)INFINITY;
-    const bool scatters = s < inside.length;
-    double passed[3], density = 0;
-    for (int k = 0; k < 3 && !grey; k++) {
-        passed[k] = koksma__exp(-koksma__medium_extinction(m, k) * (scatters ? s : inside.length));
-        density += share[k] * (scatters ? koksma__medium_extinction(m, k) : 1) * passed[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        weight[k] = (float)(grey ? (scatters ? m->scattering[k] / chosen : 1)
-                                 : (scatters ? m->scattering[k] : 1) * passed[k] / density);
-    }
-    *t = scatters ? (float)(inside.first + s / inside.speed) : 0;
-    return scatters;
-}
-
 /* ---- The phase function --------------------------------------------------------------------------------------- */
 
 static double density_of(double g, double cosine)

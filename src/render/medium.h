@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A homogeneous medium: its transmittance along a ray, the sampling of the distance at which a ray scatters, and its
-   phase function in the form of a material. medium.c has the formulas. */
+/* A homogeneous medium: the part of a ray inside it, and its phase function in the form of a material. medium.c has the
+   formulas, batch_medium.c samples them. */
 #ifndef KOKSMA_RENDER_MEDIUM_H
 #define KOKSMA_RENDER_MEDIUM_H
 
@@ -32,16 +32,6 @@ static inline bool koksma__medium_is_grey(const koksma__medium *m)
     const double first = koksma__medium_extinction(m, 0);
     return first == koksma__medium_extinction(m, 1) && first == koksma__medium_extinction(m, 2);
 }
-
-/* The part of the light along o + t d, 0 < t < end, that the medium neither absorbs nor scatters; end may be infinite. */
-void koksma__medium_transmittance(const koksma__medium *medium, const float o[3], const float d[3], double end,
-                                  float out[3]);
-
-/* For a path with the weights beta, samples by the random number u where the light along the ray o + t d, 0 < t <
-   end, comes from. Returns true if it comes from the medium at *t, and false if it comes from the end of the ray.
-   Sets the weight of that light. */
-bool koksma__medium_sample(const koksma__medium *medium, const float o[3], const float d[3], double end, float u,
-                           const float beta[3], float *t, float weight[3]);
 
 /* The phase function of Henyey & Greenstein as a material without a normal; parameter 0 is g. Scene files cannot name
    this material. */

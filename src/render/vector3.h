@@ -151,6 +151,12 @@ KOKSMA__INLINE koksma__v3 koksma__v3_subtract(koksma__v3 a, koksma__v3 b)
     return (koksma__v3){a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+/* The products of the coordinates. */
+KOKSMA__INLINE koksma__v3 koksma__v3_times(koksma__v3 a, koksma__v3 b)
+{
+    return (koksma__v3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
 KOKSMA__INLINE koksma__v3 koksma__v3_cross(koksma__v3 a, koksma__v3 b)
 {
     return (koksma__v3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -10,7 +10,7 @@
 
 #include "meshes.h"
 #include "meshes/mesh_file.h"
-#include "render/light_sample.h"
+#include "render/lanes.h"
 #include "scene/scene.h"
 
 static void write_image(const char *path, int width, const float *pixels)

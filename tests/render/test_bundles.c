@@ -2,47 +2,24 @@
 /* A list of shapes in bundles is met as the same list without them, to the last bit, by every instruction set: by rays from
    near and far, along axes, in the planes of shapes, to their edges, from shape to shape, and of two shapes in one
    place. */
+#include "lanes.h"
 #include "render/accel/accel.h"
-#include "render/shapes/shapes.h"
-#include "rendering.h"
 
 enum { SHAPES = 60, ROUNDS = test_repeats(60, 4) };
 
 static void make_shapes(double offset, koksma__batch_shape list[SHAPES])
 {
-    size_t kind = 0;
     for (int i = 0; i < SHAPES; i++) {
-        koksma__shape s = {.half = {uniform(0.02, 0.8), uniform(0.02, 0.8)}, .material = i % 9 ? i : -1, .light = -1};
-        float n[3], u[3];
-        while (!koksma__shape_types[kind] || !koksma__shape_types[kind]->hit) {
-            kind = koksma__shape_types[kind] ? kind + 1 : 0;
-        }
-        s.type = koksma__shape_types[kind++];
+        float n[3];
         unit_vector(n);
-        unit_vector(u);
-        const int along = i % 3;
+        for (int k = 0; k < 3 && i % 2 == 0; k++) { /* along an axis */
+            n[k] = k == i % 3;
+        }
+        koksma__shape s = random_shape(i, offset, n);
+        s.material = i % 9 ? i : -1;
         for (int k = 0; k < 3; k++) {
-            s.centre[k] = offset + uniform(-4, 4);
             s.motion[k] = i % 20 == 19 && !s.type->is_flat ? uniform(-1, 1) : 0;
-            s.normal[k] = i % 2 ? (double)n[k] : k == along;
-            s.axis_u[k] = k == (along + 1) % 3;
         }
-        if (i % 2) {
-            for (int k = 0; k < 3; k++) {
-                s.axis_u[k] = (double)(n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3]);
-            }
-            const double length =
-                sqrt(s.axis_u[0] * s.axis_u[0] + s.axis_u[1] * s.axis_u[1] + s.axis_u[2] * s.axis_u[2]);
-            for (int k = 0; k < 3; k++) {
-                s.axis_u[k] /= length;
-            }
-        }
-        for (int k = 0; k < 3; k++) {
-            s.axis_v[k] =
-                s.normal[(k + 1) % 3] * s.axis_u[(k + 2) % 3] - s.normal[(k + 2) % 3] * s.axis_u[(k + 1) % 3];
-        }
-        s.half[0] = s.type == &KOKSMA__SHAPE(plane) ? (double)INFINITY : s.half[0];
-        s.half[1] = s.type == &KOKSMA__SHAPE(rectangle) ? s.half[1] : s.half[0];
         list[i] = koksma__batch_shape_of(&s, i);
         if (i % 10 == 9) { /* in the place of one before */
             const int32_t material = list[i].material;
@@ -91,31 +68,12 @@ static void make_rays(const koksma__batch_shape *list, double offset, koksma__ra
                 o[k] = 2 * o[k] - to[k] + (float)lift * s->normal[k];
             }
         }
-        r->ox[i] = o[0];
-        r->oy[i] = o[1];
-        r->oz[i] = o[2];
-        r->dx[i] = to[0] - o[0];
-        r->dy[i] = to[1] - o[1];
-        r->dz[i] = to[2] - o[2];
+        set_lane(r->o, i, o);
+        for (int k = 0; k < 3; k++) {
+            r->d[k][i] = to[k] - o[k];
+        }
         r->time[i] = (float)uniform(0, 1);
     }
-}
-
-static void same(const koksma__hits *a, const koksma__hits *b)
-{
-    const size_t size = sizeof a->t;
-    assert_memory_equal(a->t, b->t, size);
-    assert_memory_equal(a->px, b->px, size);
-    assert_memory_equal(a->py, b->py, size);
-    assert_memory_equal(a->pz, b->pz, size);
-    assert_memory_equal(a->nx, b->nx, size);
-    assert_memory_equal(a->ny, b->ny, size);
-    assert_memory_equal(a->nz, b->nz, size);
-    assert_memory_equal(a->u, b->u, size);
-    assert_memory_equal(a->v, b->v, size);
-    assert_memory_equal(a->back, b->back, size);
-    assert_memory_equal(a->primitive, b->primitive, size);
-    assert_memory_equal(a->material, b->material, size);
 }
 
 /* Traces rays, then those on from the hits, then shadow rays from hit to hit, of which `lit` in
@@ -130,29 +88,23 @@ static int check(const koksma__batch_table *batch, const koksma__batch_shapes *p
     int blocked = 0;
     assert_int_equal(batch->closest(plain, rays, NULL, KOKSMA__BLOCK, &a),
                      batch->closest(bundled, rays, NULL, KOKSMA__BLOCK, &b));
-    same(&a, &b);
-    for (int i = 0; i < KOKSMA__BLOCK; i++) {
-        on.ox[i] = a.px[i];
-        on.oy[i] = a.py[i];
-        on.oz[i] = a.pz[i];
-    }
+    assert_same_hits(&a, &b);
+    memcpy(on.o, a.p, sizeof on.o);
     assert_int_equal(batch->closest(plain, &on, a.primitive, KOKSMA__BLOCK, &next),
                      batch->closest(bundled, &on, a.primitive, KOKSMA__BLOCK, &b));
-    same(&next, &b);
+    assert_same_hits(&next, &b);
     for (int i = 0; i < KOKSMA__BLOCK; i++) {
         const int to = (i * 37 + 11) % KOKSMA__BLOCK;
-        shadows.dx[i] = a.px[to] - a.px[i];
-        shadows.dy[i] = a.py[to] - a.py[i];
-        shadows.dz[i] = a.pz[to] - a.pz[i];
+        for (int k = 0; k < 3; k++) {
+            shadows.d[k][i] = a.p[k][to] - a.p[k][i];
+        }
         shadows.light[i] = i % 5 < lit ? 1 : 0;
         bright.light[i] = 1;
         aimed[i] = a.primitive[to];
         a.time[i] = rays->time[i];
     }
     shadows.aimed = bright.aimed = aimed;
-    memcpy(bright.dx, shadows.dx, sizeof bright.dx);
-    memcpy(bright.dy, shadows.dy, sizeof bright.dy);
-    memcpy(bright.dz, shadows.dz, sizeof bright.dz);
+    memcpy(bright.d, shadows.d, sizeof bright.d);
     dim = shadows;
     batch->occlude(plain, &a, KOKSMA__BLOCK, &bright);
     batch->occlude(plain, &a, KOKSMA__BLOCK, &shadows);

@@ -3,7 +3,7 @@
 #include <float.h>
 #include <string.h>
 
-#include "light_sample.h"
+#include "lanes.h"
 #include "render/lights/lights.h"
 #include "rendering.h"
 

@@ -18,8 +18,8 @@
  */
 #include "core/vector.h"
 #include "kinds.h"
+#include "lanes.h"
 #include "render/accel/accel.h"
-#include "render/shapes/shapes.h"
 
 enum { TRIALS = test_repeats(24, 6), STEPS = 2000 };
 
@@ -70,16 +70,15 @@ static void make_rays(const koksma__shape *s, uint64_t stream, koksma__rays *r)
         draw_unit(stream, 3 * i + 1, to);
         const double far = 3 * draw(stream, 1000 + i), off = draw(stream, 2000 + i);
         const float length = (float)(0.5 + 2 * draw(stream, 3000 + i));
-        float *const origin[3] = {&r->ox[i], &r->oy[i], &r->oz[i]}, *const d[3] = {&r->dx[i], &r->dy[i], &r->dz[i]};
         r->time[i] = (float)draw(stream, 4000 + i);
         float square = 0;
         for (int k = 0; k < 3; k++) { /* towards a position near the shape */
-            *origin[k] = (float)far * o[k];
-            *d[k] = (float)(s->centre[k] + off * (double)to[k]) - *origin[k];
-            square += *d[k] * *d[k];
+            r->o[k][i] = (float)far * o[k];
+            r->d[k][i] = (float)(s->centre[k] + off * (double)to[k]) - r->o[k][i];
+            square += r->d[k][i] * r->d[k][i];
         }
         for (int k = 0; k < 3; k++) {
-            *d[k] *= length / sqrtf(square);
+            r->d[k][i] *= length / sqrtf(square);
         }
     }
 }
@@ -91,9 +90,10 @@ typedef struct line {
 
 static line line_of(const koksma__shape *at, const koksma__rays *r, int i)
 {
-    return (line){at,
-                  {(double)r->ox[i], (double)r->oy[i], (double)r->oz[i]},
-                  {(double)r->dx[i], (double)r->dy[i], (double)r->dz[i]}};
+    line l = {.shape = at};
+    get_lane(r->o, i, l.o);
+    get_lane(r->d, i, l.d);
+    return l;
 }
 
 static double value(const line *l, double t, double *beyond)
@@ -172,9 +172,10 @@ static koksma__shape at_time(const koksma__shape *shape, uint64_t stream, double
 /* One lane that hits. */
 static void check_hit(const koksma__shape *s, const line *l, const koksma__hits *h, int i)
 {
-    const double p[3] = {(double)h->px[i], (double)h->py[i], (double)h->pz[i]},
-                 length = sqrt(koksma__dot(l->d, l->d));
-    const double n[3] = {(double)h->nx[i], (double)h->ny[i], (double)h->nz[i]}, t = (double)h->t[i];
+    double p[3], n[3];
+    get_lane(h->p, i, p);
+    get_lane(h->n, i, n);
+    const double length = sqrt(koksma__dot(l->d, l->d)), t = (double)h->t[i];
     double g[3], q[3], beyond, before;
     if (t * length > 50) { /* a plane's far parts, where floats are coarse */
         return;
@@ -288,12 +289,10 @@ TEST_CASE(starts_are_not_met_again)
                 float d[3];
                 draw_unit(9000 + kind, 64 * trial + (uint64_t)i, d);
                 const bool hit = first.primitive[i] == 0 && first.t[i] < 20;
-                rays.ox[i] = hit ? first.px[i] : rays.ox[i];
-                rays.oy[i] = hit ? first.py[i] : rays.oy[i];
-                rays.oz[i] = hit ? first.pz[i] : rays.oz[i];
-                rays.dx[i] = d[0];
-                rays.dy[i] = d[1];
-                rays.dz[i] = d[2];
+                for (int k = 0; k < 3; k++) {
+                    rays.o[k][i] = hit ? first.p[k][i] : rays.o[k][i];
+                }
+                set_lane(rays.d, i, d);
                 from[i] = hit ? 0 : -1;
             }
             koksma__batch()->closest(&list, &rays, from, KOKSMA__BLOCK, &next);
@@ -320,20 +319,18 @@ TEST_CASE(shadows_are_those_of_the_equation)
             make_rays(scene->shapes, 6000 + 100 * kind + trial, &r);
             for (int i = 0; i < KOKSMA__BLOCK; i++) {
                 const float far = 1 + 2 * (float)draw(6500 + kind, 64 * trial + (uint64_t)i);
-                from.px[i] = r.ox[i];
-                from.py[i] = r.oy[i];
-                from.pz[i] = r.oz[i];
                 from.time[i] = r.time[i];
                 from.primitive[i] = -1;
                 aimed[i] = i % 2 ? 0 : 1; /* this shape as the light's own surface; another */
                 for (int k = 0; k < 2; k++) {
-                    shadows[k].dx[i] = r.dx[i] *= k ? 1 : far;
-                    shadows[k].dy[i] = r.dy[i] *= k ? 1 : far;
-                    shadows[k].dz[i] = r.dz[i] *= k ? 1 : far;
+                    for (int c = 0; c < 3; c++) {
+                        shadows[k].d[c][i] = r.d[c][i] *= k ? 1 : far;
+                    }
                     shadows[k].light[i] = 1;
                 }
             }
             const koksma__batch_shapes list = {.n = 1, .shapes = &shape};
+            memcpy(from.p, r.o, sizeof from.p);
             koksma__batch()->occlude(&list, &from, KOKSMA__BLOCK, &shadows[0]);
             shape.material = -1;
             koksma__batch()->occlude(&list, &from, KOKSMA__BLOCK, &shadows[1]);
@@ -374,17 +371,16 @@ static void check_moved_lanes(const koksma_scene *scene, const koksma__rays *ray
         hitting++;
     }
     for (int all = 0; all < 2; all++) {
-        const float *const from[] = {rays->ox, rays->oy, rays->oz, rays->dx, rays->dy, rays->dz, rays->time};
-        float *const to[] = {turned.ox, turned.oy, turned.oz, turned.dx, turned.dy, turned.dz, turned.time};
-        for (int i = 0; i < 7 * KOKSMA__BLOCK; i++) {
+        enum { RAY = sizeof *rays / sizeof rays->time, HIT = offsetof(koksma__hits, time) / sizeof rays->time };
+        const koksma__lanes *from = rays->o, *wanted = &h->t;
+        koksma__lanes *to = turned.o, *got = &hit.t;
+        for (int i = 0; i < RAY * KOKSMA__BLOCK; i++) {
             const int lane = i % KOKSMA__BLOCK;
             to[i / KOKSMA__BLOCK][lane] = from[i / KOKSMA__BLOCK][all ? hitting : (lane + 13) % KOKSMA__BLOCK];
         }
         memset(&hit, 0xff, sizeof hit); /* no numbers, where a loop forgets to write */
         koksma__batch()->closest(&(koksma__batch_shapes){.n = 2, .shapes = two}, &turned, NULL, KOKSMA__BLOCK, &hit);
-        const float *const got[] = {hit.nx, hit.ny, hit.nz, hit.px, hit.py, hit.pz, hit.u, hit.v};
-        const float *const wanted[] = {h->nx, h->ny, h->nz, h->px, h->py, h->pz, h->u, h->v};
-        for (int i = 0; i < 8 * KOKSMA__BLOCK; i++) {
+        for (int i = KOKSMA__BLOCK; i < HIT * KOKSMA__BLOCK; i++) {
             const int lane = i % KOKSMA__BLOCK, k = all ? hitting : (lane + 13) % KOKSMA__BLOCK;
             assert_int_equal(hit.primitive[lane], h->primitive[k]);
             assert_int_equal(hit.back[lane], h->back[k]);
@@ -412,9 +408,7 @@ TEST_CASE(lanes_are_alike)
             for (int k = 0; k < 4; k++) {
                 const koksma__batch_table *batch = koksma__batch_find(isas[k]);
                 for (int i = 0; i < KOKSMA__BLOCK; i++) {
-                    shadows[k].dx[i] = rays.dz[i];
-                    shadows[k].dy[i] = rays.dx[i];
-                    shadows[k].dz[i] = rays.dy[i];
+                    set_lane(shadows[k].d, i, (const float[3]){rays.d[2][i], rays.d[0][i], rays.d[1][i]});
                     shadows[k].light[i] = 1;
                 }
                 if (batch) {
@@ -454,16 +448,15 @@ TEST_CASE(geometries_agree)
             both.closest(&both, &rays, NULL, KOKSMA__BLOCK, &b);
             assert_memory_equal(a.primitive, b.primitive, sizeof a.primitive);
             assert_memory_equal(a.t, b.t, sizeof a.t);
-            assert_memory_equal(a.nx, b.nx, sizeof a.nx);
+            assert_memory_equal(a.n, b.n, sizeof a.n);
             assert_memory_equal(a.material, b.material, sizeof a.material);
             memcpy(a.time, rays.time, sizeof a.time);
             memset(shadows, 0, sizeof shadows);
             for (int i = 0; i < KOKSMA__BLOCK; i++) { /* from the shape to the light at (0, 9, 0) */
                 for (int k = 0; k < 3; k++) {
                     const bool hit = a.primitive[i] == 0 && a.t[i] < 20;
-                    shadows[k].dx[i] = hit ? -a.px[i] : 1;
-                    shadows[k].dy[i] = hit ? 9 - a.py[i] : 0;
-                    shadows[k].dz[i] = hit ? -a.pz[i] : 0;
+                    const float to_light[3] = {hit ? -a.p[0][i] : 1, hit ? 9 - a.p[1][i] : 0, hit ? -a.p[2][i] : 0};
+                    set_lane(shadows[k].d, i, to_light);
                     shadows[k].light[i] = hit;
                 }
             }

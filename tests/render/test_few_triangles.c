@@ -2,8 +2,8 @@
 /* Rays that test all triangles of a scene, beside the intersection by Cramer's rule in double precision (Moeller &
    Trumbore 1997), and on a closed surface, through which no ray may pass. */
 #include "core/vector.h"
+#include "lanes.h"
 #include "render/accel/accel.h"
-#include "rendering.h"
 
 typedef struct world {
     koksma__batch_faces faces;
@@ -26,35 +26,41 @@ static void add_face(world *w, const float a[3], const float b[3], const float c
     }
 }
 
+static void add_random_face(world *w)
+{
+    float c[3][3];
+    for (int i = 0; i < 9; i++) {
+        c[i / 3][i % 3] = (float)uniform(-2, 2);
+    }
+    add_face(w, c[0], c[1], c[2]);
+}
+
 /* Rays from a point of the box [-reach, reach]^3, as rays, and as shadow rays to hits at t = 0. */
 static void aim(world *w, double reach)
 {
     for (int i = 0; i < KOKSMA__BLOCK; i++) {
-        w->hits.px[i] = w->rays.ox[i] = (float)uniform(-reach, reach);
-        w->hits.py[i] = w->rays.oy[i] = (float)uniform(-reach, reach);
-        w->hits.pz[i] = w->rays.oz[i] = (float)uniform(-reach, reach);
-        w->shadows.dx[i] = w->rays.dx[i] = (float)uniform(-4, 4);
-        w->shadows.dy[i] = w->rays.dy[i] = (float)uniform(-4, 4);
-        w->shadows.dz[i] = w->rays.dz[i] = (float)uniform(-4, 4);
+        draw_lane(w->rays.o, i, reach);
+        draw_lane(w->rays.d, i, 4);
         w->shadows.light[i] = 1;
         w->hits.t[i] = INFINITY;
     }
+    memcpy(w->hits.p, w->rays.o, sizeof w->hits.p);
+    memcpy(w->shadows.d, w->rays.d, sizeof w->shadows.d);
 }
 
 static int trace(const koksma__batch_table *batch, world *w)
 {
-    batch->shade_faces(&w->faces, w->rays.ox, w->rays.oy, w->rays.oz, &w->hits, KOKSMA__BLOCK, &w->shadows);
-    return batch->meet_faces(&w->faces, w->rays.ox, w->rays.oy, w->rays.oz, &w->rays, &w->hits, KOKSMA__BLOCK,
-                             &w->on);
+    batch->shade_faces(&w->faces, w->rays.o, &w->hits, KOKSMA__BLOCK, &w->shadows);
+    return batch->meet_faces(&w->faces, w->rays.o, &w->rays, &w->hits, KOKSMA__BLOCK, &w->on);
 }
 
 /* Where ray i meets triangle k: t and the weights; returns how far inside the triangle that is, or -1 for t <= 0. */
 static double meet(const world *w, int i, int k, double out[3])
 {
     const double(*c)[3] = w->corners[k];
-    const double o[3] = {(double)w->rays.ox[i], (double)w->rays.oy[i], (double)w->rays.oz[i]};
-    const double d[3] = {(double)w->rays.dx[i], (double)w->rays.dy[i], (double)w->rays.dz[i]};
-    double e[3], f[3], s[3], p[3], q[3];
+    double o[3], d[3], e[3], f[3], s[3], p[3], q[3];
+    get_lane(w->rays.o, i, o);
+    get_lane(w->rays.d, i, d);
     koksma__subtract(c[1], c[0], e);
     koksma__subtract(c[2], c[0], f);
     koksma__subtract(o, c[0], s);
@@ -75,11 +81,7 @@ TEST_CASE(few_triangles_are_met_as_by_cramers_rule)
         static world w;
         w.faces.n = 0;
         for (int k = 0; k < 20; k++) {
-            float c[3][3];
-            for (int i = 0; i < 9; i++) {
-                c[i / 3][i % 3] = (float)uniform(-2, 2);
-            }
-            add_face(&w, c[0], c[1], c[2]);
+            add_random_face(&w);
         }
         aim(&w, 2);
         const int count = trace(koksma__batch(), &w);
@@ -142,12 +144,10 @@ TEST_CASE(no_ray_passes_between_two_of_few_triangles)
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
             const float *a = corners[i % 8], *b = corners[i / 8 % 8];
             const float part = i % 3 ? (float)uniform(0, 1) : 0;
-            w.rays.ox[i] += (float)away;
-            w.rays.oy[i] += (float)away;
-            w.rays.oz[i] += (float)away;
-            w.rays.dx[i] = (1 - part) * a[0] + part * b[0] - w.rays.ox[i];
-            w.rays.dy[i] = (1 - part) * a[1] + part * b[1] - w.rays.oy[i];
-            w.rays.dz[i] = (1 - part) * a[2] + part * b[2] - w.rays.oz[i];
+            for (int k = 0; k < 3; k++) {
+                w.rays.o[k][i] += (float)away;
+                w.rays.d[k][i] = (1 - part) * a[k] + part * b[k] - w.rays.o[k][i];
+            }
         }
         assert_int_equal(trace(koksma__batch(), &w), KOKSMA__BLOCK);
     }
@@ -164,11 +164,7 @@ TEST_CASE(few_triangles_have_the_same_bits_for_every_instruction_set)
         counter = 77;
         memset(&w, 0, sizeof w);
         for (int k = 0; k < 12; k++) {
-            float c[3][3];
-            for (int i = 0; i < 9; i++) {
-                c[i / 3][i % 3] = (float)uniform(-2, 2);
-            }
-            add_face(&w, c[0], c[1], c[2]);
+            add_random_face(&w);
         }
         aim(&w, 2);
         trace(batch, &w);
@@ -209,16 +205,11 @@ TEST_CASE(bundled_triangles_are_met_alike)
         }
         aim(&w, 2);
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
-            float *const o[3] = {&w.rays.ox[i], &w.rays.oy[i], &w.rays.oz[i]};
-            float *const d[3] = {&w.rays.dx[i], &w.rays.dy[i], &w.rays.dz[i]};
             const int face = (int)uniform(0, 20), corner = (int)uniform(0, 3);
             for (int k = 0; k < 3; k++) { /* some to corners, from anywhere */
-                *o[k] += (float)offset;
-                *d[k] = i % 2 ? *d[k] : (float)w.corners[face][corner][k] - *o[k];
+                w.hits.p[k][i] = w.rays.o[k][i] += (float)offset;
+                w.rays.d[k][i] = i % 2 ? w.rays.d[k][i] : (float)w.corners[face][corner][k] - w.rays.o[k][i];
             }
-            w.hits.px[i] = *o[0];
-            w.hits.py[i] = *o[1];
-            w.hits.pz[i] = *o[2];
             w.shadows.light[i] = i % 7 ? 1 : 0;
         }
         bundled = w;

@@ -3,55 +3,26 @@
    through random cameras (narrow and wide, far from and almost in the plane of a shape, far from the origin), traced
    with all shapes and with those in sight, to the last bit. Shapes that are said to be clear of shadow rays block none
    of them. */
+#include "lanes.h"
 #include "render/culling.h"
-#include "render/shapes/shapes.h"
-#include "rendering.h"
 
 enum { SHAPES = 6, ROUNDS = test_repeats(300, 20), PARTS = 40, SIDE = 100 };
-
-static void cross(const float a[3], const float b[3], float out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-    }
-}
 
 /* An orthonormal frame, but for rounding. */
 static void frame(float n[3], float u[3], float v[3])
 {
-    float other[3], length;
     unit_vector(n);
-    do {
-        unit_vector(other);
-        cross(n, other, u);
-        length = sqrtf(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-    } while (!(length > 0.1f));
-    for (int k = 0; k < 3; k++) {
-        u[k] /= length;
-    }
-    cross(n, u, v);
+    koksma__v3_to(koksma__v3_about(koksma__v3_of(n), 1, 0, 0), u);
+    koksma__v3_to(koksma__v3_about(koksma__v3_of(n), 0, 1, 0), v);
 }
 
-/* Shapes of every kind of the table in turn, but the second is a rectangle. */
+/* Shapes of every kind of the table in turn; the second is a rectangle. */
 static void make_shapes(double offset, koksma__batch_shape list[SHAPES])
 {
-    size_t kind = 0;
     for (int i = 0; i < SHAPES; i++) {
-        float n[3], u[3], v[3];
-        koksma__shape s = {.half = {uniform(0.1, 1.5), uniform(0.1, 1.5)}, .material = i};
-        while (!koksma__shape_types[kind] || !koksma__shape_types[kind]->hit) {
-            kind = koksma__shape_types[kind] ? kind + 1 : 0;
-        }
-        s.type = i == 1 ? &KOKSMA__SHAPE(rectangle) : koksma__shape_types[kind++];
-        frame(n, u, v);
-        for (int k = 0; k < 3; k++) {
-            s.centre[k] = offset + uniform(-4, 4);
-            s.normal[k] = (double)n[k];
-            s.axis_u[k] = (double)u[k];
-            s.axis_v[k] = (double)v[k];
-        }
-        s.half[0] = s.type == &KOKSMA__SHAPE(plane) ? (double)INFINITY : s.half[0];
-        s.half[1] = s.type == &KOKSMA__SHAPE(rectangle) ? s.half[1] : s.half[0];
+        float n[3];
+        unit_vector(n);
+        const koksma__shape s = random_shape(i, offset, n);
         list[i] = koksma__batch_shape_of(&s, i);
     }
 }
@@ -84,23 +55,6 @@ static void make_places(const double x[2], const double y[2], float xy[2 * KOKSM
     }
 }
 
-static void same_hits(const koksma__hits *a, const koksma__hits *b)
-{
-    const size_t size = sizeof a->t;
-    assert_memory_equal(a->t, b->t, size);
-    assert_memory_equal(a->px, b->px, size);
-    assert_memory_equal(a->py, b->py, size);
-    assert_memory_equal(a->pz, b->pz, size);
-    assert_memory_equal(a->nx, b->nx, size);
-    assert_memory_equal(a->ny, b->ny, size);
-    assert_memory_equal(a->nz, b->nz, size);
-    assert_memory_equal(a->u, b->u, size);
-    assert_memory_equal(a->v, b->v, size);
-    assert_memory_equal(a->back, b->back, size);
-    assert_memory_equal(a->primitive, b->primitive, size);
-    assert_memory_equal(a->material, b->material, size);
-}
-
 /* The numbers of shapes out of sight, and of those that no ray met. */
 typedef struct tally {
     int hidden, missed;
@@ -127,7 +81,7 @@ static void check_part(const koksma__frustum_cull *sight, const koksma__batch_ca
     const koksma__batch_shapes in_sight = {.n = n, .shapes = list};
     const int hit = batch->closest(shapes, &rays, NULL, KOKSMA__BLOCK, &all);
     assert_int_equal(batch->closest(&in_sight, &rays, NULL, KOKSMA__BLOCK, &some), hit);
-    same_hits(&all, &some);
+    assert_same_hits(&all, &some);
     /* One by one, too: a shape that stands behind another must not be forgotten. */
     for (size_t k = 0; k < SHAPES; k++) {
         const koksma__batch_shapes one = {.n = 1, .shapes = &shapes->shapes[k]};

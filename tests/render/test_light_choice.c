@@ -5,7 +5,7 @@
  * chosen, so that the mean of contribution / probability is the sum over all lights. `auto` is `one` for paths among
  * more than 8 lights, and `all` elsewhere; its mean is that of all lights.
  */
-#include "light_sample.h"
+#include "lanes.h"
 #include "render/lights/lights.h"
 #include "render/pipelines/batch.h"
 #include "render/pipelines/pipelines.h"
@@ -92,12 +92,8 @@ TEST_CASE(choices_have_their_probabilities)
             expected[l] = (double)koksma__light_probability(&frame, p, n, (int)l);
         }
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
-            hits.px[i] = p[0];
-            hits.py[i] = p[1];
-            hits.pz[i] = p[2];
-            hits.nx[i] = n[0];
-            hits.ny[i] = n[1];
-            hits.nz[i] = n[2];
+            set_lane(hits.p, i, p);
+            set_lane(hits.n, i, n);
         }
         for (int start = 0; start < GRID; start += KOKSMA__BLOCK) {
             KOKSMA__LANES(float, u);

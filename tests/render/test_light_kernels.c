@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Choosing lights against a plain twin in double precision, and shadows of small spheres: the same bits for every
    instruction set. */
-#include "render/shapes/shapes.h"
-#include "rendering.h"
-#include <math.h>
+#include "lanes.h"
 
 static void random_lamps(koksma__batch_lights *l)
 {
@@ -18,12 +16,10 @@ static void random_lamps(koksma__batch_lights *l)
         if (i >= l->n) {
             continue;
         }
-        l->cx[i] = uniform(-3, 3);
-        l->cy[i] = uniform(-3, 3);
-        l->cz[i] = uniform(-3, 3);
-        l->nx[i] = normal[0];
-        l->ny[i] = normal[1];
-        l->nz[i] = normal[2];
+        for (int k = 0; k < 3; k++) {
+            l->centre[k][i] = uniform(-3, 3);
+            l->normal[k][i] = normal[k];
+        }
         l->reach[i] = uniform(0.01, 0.6);
         l->flat[i] = kind == 0;
         l->power[i] = kind < 2 ? uniform(0, 5) : 0;
@@ -35,9 +31,11 @@ static void random_lamps(koksma__batch_lights *l)
 /* The definition of batch.h, in double precision. near_edge: within rounding of going out of sight. */
 static double twin(const koksma__batch_lights *l, int i, const float p[3], const float n[3], bool *near_edge)
 {
-    const double d[3] = {(double)l->cx[i] - (double)p[0], (double)l->cy[i] - (double)p[1],
-                         (double)l->cz[i] - (double)p[2]};
-    const double m[3] = {(double)l->nx[i], (double)l->ny[i], (double)l->nz[i]};
+    double d[3], m[3];
+    for (int k = 0; k < 3; k++) {
+        d[k] = (double)l->centre[k][i] - (double)p[k];
+        m[k] = (double)l->normal[k][i];
+    }
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), r = fmax(length, (double)l->reach[i]);
     double up = 0, down = 0, away = 0;
     for (int k = 0; k < 3; k++) {
@@ -94,8 +92,7 @@ TEST_CASE(small_spheres_far_away_shade)
         sphere.radius2 = radius * radius;
         int dark[KOKSMA__BLOCK];
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
-            float n[3], m[3], *const to[3] = {&shadows[0].dx[i], &shadows[0].dy[i], &shadows[0].dz[i]};
-            float *const from[3] = {&hits.px[i], &hits.py[i], &hits.pz[i]};
+            float n[3], m[3];
             unit_vector(n);
             unit_vector(m);
             const float along = m[0] * n[0] + m[1] * n[1] + m[2] * n[2], rest = sqrtf(1 - along * along);
@@ -103,8 +100,8 @@ TEST_CASE(small_spheres_far_away_shade)
             const float far = stops ? distance * 0.9f - radius : powf(10, uniform(0, 3)) * distance + 2 * radius;
             for (int k = 0; k < 3; k++) {
                 const float across = (m[k] - along * n[k]) / rest;
-                *from[k] = (passes ? 1.02f : 0.98f) * radius * across - distance * n[k];
-                *to[k] = far * n[k];
+                hits.p[k][i] = (passes ? 1.02f : 0.98f) * radius * across - distance * n[k];
+                shadows[0].d[k][i] = far * n[k];
             }
             aimed[i] = i % 8 == 4 ? 7 : i % 8; /* to this light; to another one */
             dark[i] = !passes && !stops && aimed[i] != 7;

@@ -11,7 +11,7 @@
  * ways of choosing among lights, and by path tracing (which also meets lights by reflected rays), have one mean.
  */
 #include "kinds.h"
-#include "light_sample.h"
+#include "lanes.h"
 #include "render/accel/accel.h"
 #include "render/lights/lights.h"
 #include "render/vector3.h"
@@ -100,12 +100,8 @@ static bool look(const view *v, const float w[3], float radiance[3], float *pdf)
     koksma__rays rays;
     koksma__hits hits;
     for (int i = 0; i < KOKSMA__LANE_STEP; i++) {
-        rays.ox[i] = v->p[0];
-        rays.oy[i] = v->p[1];
-        rays.oz[i] = v->p[2];
-        rays.dx[i] = w[0];
-        rays.dy[i] = w[1];
-        rays.dz[i] = w[2];
+        set_lane(rays.o, i, v->p);
+        set_lane(rays.d, i, w);
         rays.time[i] = 0;
     }
     if (l->kind->radiance) {
@@ -117,7 +113,7 @@ static bool look(const view *v, const float w[3], float radiance[3], float *pdf)
     if (hits.primitive[0] < 0 || hits.back[0] || v->geometry.light(&v->geometry, hits.primitive[0]) != v->number) {
         return false;
     }
-    const float n[3] = {hits.nx[0], hits.ny[0], hits.nz[0]};
+    const float n[3] = {hits.n[0][0], hits.n[1][0], hits.n[2][0]};
     memcpy(radiance, l->radiance, sizeof l->radiance);
     *pdf = l->kind->pdf(l, v->p, w, hits.t[0], n);
     return true;

@@ -3,10 +3,10 @@
  * The homogeneous medium against what is known of it: the exponential law, the integral of single scattering by
  * quadrature, white furnaces, and the phase function's definition. Every integrator that renders media is under test.
  */
+#include "core/elementary.h"
+#include "lanes.h"
 #include "render/integrators/integrators.h"
 #include "render/medium.h"
-#include "render/pipelines/vertices.h"
-#include "rendering.h"
 
 #define EYE(fov) "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': " fov "}, "
 #define LAMBERT "'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0.6}], "
@@ -180,23 +180,36 @@ TEST_CASE(samples_are_unbiased_for_any_weights)
     static const double a[3] = {0, 0.3, 0.05}, b[3] = {1.5, 0.4, 0};
     static const float betas[][3] = {{1, 1, 1}, {0.9f, 0.05f, 0.4f}, {0, 0, 2}, {1e-6f, 3, 0}, {0, 1, 0.01f}};
     static const float o[3] = {0, 0, 0}, d[3] = {0, 0, 2};
-    const int n = test_repeats(400000, 20000);
+    const int n = test_repeats(1600, 80) * KOKSMA__BLOCK;
     koksma__medium medium;
     koksma__medium_init(&medium, a, b, 0);
     for (size_t c = 0; c < sizeof betas / sizeof *betas; c++) {
         double passed[3] = {0, 0, 0}, scattered[3] = {0, 0, 0}, early[3] = {0, 0, 0};
-        for (int i = 0; i < n; i++) {
-            float t, weight[3];
-            const bool scatters =
-                koksma__medium_sample(&medium, o, d, 1.5, ((float)i + 0.5f) / (float)n, betas[c], &t, weight);
-            double before = 0, after = 0;
-            for (int k = 0; k < 3; k++) {
-                (scatters ? scattered : passed)[k] += (double)weight[k] / n;
-                early[k] += scatters && t < 0.5f ? (double)weight[k] / n : 0;
-                before += (double)betas[c][k];
-                after += (double)betas[c][k] * (double)weight[k];
+        for (int first = 0; first < n; first += KOKSMA__BLOCK) {
+            static koksma__paths paths;
+            static koksma__hits hits;
+            _Alignas(64) koksma__lanes u;
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                set_lane(paths.rays.o, i, o);
+                set_lane(paths.rays.d, i, d);
+                set_lane(paths.beta, i, betas[c]);
+                u[i] = ((float)(first + i) + 0.5f) / (float)n;
+                hits.t[i] = 1.5f;
+                hits.primitive[i] = hits.material[i] = 0;
             }
-            assert_true(after <= before * (1 + 1e-6));
+            koksma__batch()->travel(&medium, u, 7, KOKSMA__BLOCK, &paths, &hits);
+            for (int i = 0; i < KOKSMA__BLOCK; i++) {
+                const bool scatters = hits.material[i] == 7;
+                double before = 0, after[3];
+                get_lane(paths.beta, i, after);
+                for (int k = 0; k < 3; k++) {
+                    const double weight = betas[c][k] > 0 ? after[k] / (double)betas[c][k] / n : 0;
+                    (scatters ? scattered : passed)[k] += weight;
+                    early[k] += scatters && hits.t[i] < 0.5f ? weight : 0;
+                    before += (double)betas[c][k];
+                }
+                assert_true(after[0] + after[1] + after[2] <= before * (1 + 1e-6));
+            }
         }
         for (int k = 0; k < 3; k++) {
             const double all = a[k] + b[k], part = b[k] / all;
@@ -391,64 +404,52 @@ static koksma__medium random_medium(int round)
     return m;
 }
 
-/* Blocks of rays in media of all kinds, also along axes and with channels that carry nothing, beside single rays: every
-   bit is the same. */
-TEST_CASE(blocks_of_rays_travel_as_single_rays)
+/* Blocks of rays in media of all kinds, also along axes and with channels that carry nothing: every instruction set gives the
+   same bits, rays scatter inside, and shadow rays keep exp(-(a + b) s) of their light. */
+TEST_CASE(blocks_of_rays_travel_alike)
 {
     for (int round = 0; round < test_repeats(210, 42); round++) {
         const koksma__medium m = random_medium(round);
-        koksma__paths first;
-        koksma__hits met;
-        koksma__shadows shadows;
-        _Alignas(64) koksma__lanes u;
+        static koksma__paths first, paths[4];
+        static koksma__hits met, hits[4];
+        static koksma__shadows shadows;
+        static _Alignas(64) koksma__lanes u, light[4][3];
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
-            float *const o[3] = {&first.rays.ox[i], &first.rays.oy[i], &first.rays.oz[i]};
-            float *const d[3] = {&first.rays.dx[i], &first.rays.dy[i], &first.rays.dz[i]};
-            const int axis = i % 4;
+            draw_lane(first.rays.o, i, 3);
             for (int k = 0; k < 3; k++) {
-                *o[k] = (float)uniform(-3, 3);
-                *d[k] = axis == 3 || k == axis ? (float)uniform(-2, 2) : 0;
+                first.rays.d[k][i] = i % 4 == 3 || k == i % 4 ? (float)uniform(-2, 2) : 0;
                 first.beta[k][i] = i % 9 == k || i % 31 == 0 ? 0 : (float)uniform(0, 1);
+                light[0][k][i] = light[1][k][i] = light[2][k][i] = light[3][k][i] = 1;
             }
             u[i] = i ? (float)uniform(0, 1) * (1 - 0x1p-24f) : 0;
             met.primitive[i] = i % 3 ? 2 : -1;
             met.t[i] = (float)uniform(0, 4);
             met.material[i] = 1;
-            met.px[i] = *o[0];
-            met.py[i] = *o[1];
-            met.pz[i] = *o[2];
-            shadows.dx[i] = *d[0];
-            shadows.dy[i] = *d[1];
-            shadows.dz[i] = *d[2];
         }
+        memcpy(met.p, first.rays.o, sizeof met.p);
+        memcpy(shadows.d, first.rays.d, sizeof shadows.d);
         for (int k = 0; k < 4; k++) {
             const koksma__batch_table *batch = koksma__batch_find(isas[k]);
-            koksma__paths paths = first;
-            koksma__hits hits = met;
-            _Alignas(64) koksma__lanes light[3];
-            if (!batch) {
-                continue;
+            paths[k] = first;
+            hits[k] = met;
+            if (batch) {
+                batch->travel(&m, u, 7, KOKSMA__BLOCK, &paths[k], &hits[k]);
+                batch->attenuate(&m, &met, &shadows, KOKSMA__BLOCK, light[k]);
+                assert_memory_equal(&paths[k], &paths[0], sizeof *paths);
+                assert_memory_equal(&hits[k], &hits[0], sizeof *hits);
+                assert_memory_equal(light[k], light[0], sizeof *light);
             }
-            batch->travel(&m, u, 7, KOKSMA__BLOCK, &paths, &hits);
-            for (int i = 0; i < KOKSMA__BLOCK; i++) {
-                light[0][i] = light[1][i] = light[2][i] = 1;
-            }
-            batch->attenuate(&m, &met, &shadows, KOKSMA__BLOCK, light);
-            for (int i = 0; i < KOKSMA__BLOCK; i++) {
-                const float o[3] = {first.rays.ox[i], first.rays.oy[i], first.rays.oz[i]};
-                const float d[3] = {first.rays.dx[i], first.rays.dy[i], first.rays.dz[i]};
-                const float beta[3] = {first.beta[0][i], first.beta[1][i], first.beta[2][i]};
-                const double end = met.primitive[i] < 0 ? (double)INFINITY : (double)met.t[i];
-                float t, weight[3], passed[3];
-                const bool in = koksma__medium_sample(&m, o, d, end, u[i], beta, &t, weight);
-                koksma__medium_transmittance(&m, o, d, 1, passed);
-                assert_int_equal(hits.material[i], in ? 7 : 1);
-                assert_true(!in || hits.t[i] == t);
-                for (int c = 0; c < 3; c++) {
-                    const float expected = beta[c] * weight[c];
-                    assert_true(paths.beta[c][i] == expected || (isnan(expected) && isnan(paths.beta[c][i])));
-                    assert_true(light[c][i] == passed[c]);
-                }
+        }
+        for (int i = 0; i < KOKSMA__BLOCK; i++) {
+            const float o[3] = {met.p[0][i], met.p[1][i], met.p[2][i]};
+            const float d[3] = {shadows.d[0][i], shadows.d[1][i], shadows.d[2][i]};
+            const double end = met.primitive[i] < 0 ? (double)INFINITY : (double)met.t[i];
+            const koksma__stretch inside = koksma__medium_stretch(&m, o, d, end),
+                                  shadow = koksma__medium_stretch(&m, o, d, 1);
+            const double far = (double)hits[0].t[i] - inside.first;
+            assert_true(hits[0].material[i] != 7 || (far >= -1e-5 && far * inside.speed <= inside.length + 1e-5));
+            for (int c = 0; c < 3; c++) {
+                assert_true(light[0][c][i] == (float)koksma__exp(-koksma__medium_extinction(&m, c) * shadow.length));
             }
         }
     }

@@ -1,47 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The renderer's loops over lanes: the same bits for every instruction set, and lists of shapes as their shapes one by
    one. */
-#include "core/vector.h"
-#include "render/shapes/shapes.h"
-#include "rendering.h"
+#include "lanes.h"
 
 enum { ROUNDS = 300 };
-
-static koksma__batch_shape random_shape(int index)
-{
-    static const koksma__shape_type *const types[] = {&KOKSMA__SHAPE(plane), &KOKSMA__SHAPE(rectangle),
-                                                      &KOKSMA__SHAPE(disk), &KOKSMA__SHAPE(sphere)};
-    koksma__shape s = {.type = types[index % 4], .material = index};
-    float normal[3], other[3];
-    unit_vector(normal);
-    unit_vector(other);
-    for (int k = 0; k < 3; k++) {
-        s.centre[k] = uniform(-2, 2);
-        s.normal[k] = (double)normal[k];
-        s.axis_v[k] = (double)other[k];
-    }
-    koksma__cross(s.axis_v, s.normal, s.axis_u);
-    koksma__normalise(s.axis_u);
-    koksma__cross(s.normal, s.axis_u, s.axis_v);
-    s.half[0] = index % 4 ? uniform(0.3, 1.2) : (double)INFINITY;
-    s.half[1] = index % 4 == 1 ? uniform(0.3, 1.2) : s.half[0];
-    return koksma__batch_shape_of(&s, index);
-}
-
-static void random_rays(koksma__rays *r)
-{
-    for (int i = 0; i < KOKSMA__BLOCK; i++) {
-        float d[3];
-        unit_vector(d);
-        r->ox[i] = (float)uniform(-4, 4);
-        r->oy[i] = (float)uniform(-4, 4);
-        r->oz[i] = (float)uniform(-4, 4);
-        const float length = (float)uniform(0.5, 3);
-        r->dx[i] = length * d[0];
-        r->dy[i] = length * d[1];
-        r->dz[i] = length * d[2];
-    }
-}
 
 typedef struct world {
     koksma__batch_shape list[5];
@@ -56,10 +18,16 @@ static void make_world(world *w, uint64_t round)
     memset(w, 0, sizeof *w);
     counter = round << 20;
     for (int k = 0; k < 5; k++) {
-        w->list[k] = random_shape(k);
+        float n[3];
+        unit_vector(n);
+        const koksma__shape s = random_shape(k, 0, n);
+        w->list[k] = koksma__batch_shape_of(&s, k);
+    }
+    for (int i = 0; i < KOKSMA__BLOCK; i++) {
+        draw_lane(w->rays.o, i, 4);
+        draw_direction(w->rays.d, i, uniform(0.5, 3));
     }
     w->shapes = (koksma__batch_shapes){.n = 5, .shapes = w->list};
-    random_rays(&w->rays);
 }
 
 /* A ray's hit with many shapes is the nearest of those with each of them, and a shadow ray is dark where one of them
@@ -75,9 +43,7 @@ TEST_CASE(lists_are_as_their_shapes_one_by_one)
         make_world(&w, round);
         batch->closest(&w.shapes, &w.rays, NULL, KOKSMA__BLOCK, &w.hits);
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
-            w.shadows.dx[i] = (float)uniform(-4, 4);
-            w.shadows.dy[i] = (float)uniform(-4, 4);
-            w.shadows.dz[i] = (float)uniform(-4, 4);
+            draw_lane(w.shadows.d, i, 4);
             w.shadows.light[i] = lit[i] = 1;
             nearest.primitive[i] = nearest.material[i] = -1;
             nearest.t[i] = INFINITY;
@@ -92,8 +58,8 @@ TEST_CASE(lists_are_as_their_shapes_one_by_one)
                 lit[i] *= shadows.light[i];
                 if (hits.primitive[i] == k && hits.t[i] < nearest.t[i]) {
                     nearest.t[i] = hits.t[i];
-                    nearest.nx[i] = hits.nx[i];
-                    nearest.px[i] = hits.px[i];
+                    nearest.n[0][i] = hits.n[0][i];
+                    nearest.p[0][i] = hits.p[0][i];
                     nearest.primitive[i] = nearest.material[i] = k;
                 }
             }
@@ -104,8 +70,8 @@ TEST_CASE(lists_are_as_their_shapes_one_by_one)
         assert_memory_equal(w.hits.material, nearest.material, sizeof nearest.material);
         for (int i = 0; i < KOKSMA__BLOCK; i++) {
             const bool met = w.hits.primitive[i] >= 0;
-            assert_true(!met || (w.hits.t[i] == nearest.t[i] && w.hits.nx[i] == nearest.nx[i]));
-            assert_true(!met || w.hits.px[i] == nearest.px[i]);
+            assert_true(!met || (w.hits.t[i] == nearest.t[i] && w.hits.n[0][i] == nearest.n[0][i]));
+            assert_true(!met || w.hits.p[0][i] == nearest.p[0][i]);
             lanes++;
             hit += met;
             dark += lit[i] == 0;

@@ -4,8 +4,8 @@
  * samples test_light_kinds checks, and where they scatter. koksma__bsdf, whose densities and energies test_bsdfs checks,
  * says what is right; all instruction sets give the same bits.
  */
+#include "lanes.h"
 #include "render/render.h"
-#include "rendering.h"
 
 enum { ROUNDS = 200 };
 
@@ -32,19 +32,12 @@ static void random_hits(const koksma_scene *scene, koksma__rays *rays, koksma__h
     memset(h, 0, sizeof *h);
     memset(rays, 0, sizeof *rays);
     for (int i = 0; i < KOKSMA__BLOCK; i++) {
-        float n[3], d[3];
+        float n[3];
+        draw_direction(rays->d, i, uniform(0.5, 2));
         unit_vector(n);
-        unit_vector(d);
-        const float up = n[0] * d[0] + n[1] * d[1] + n[2] * d[2], length = uniform(0.5, 2), side = up > 0 ? -1 : 1;
-        rays->dx[i] = length * d[0];
-        rays->dy[i] = length * d[1];
-        rays->dz[i] = length * d[2];
-        h->nx[i] = side * n[0];
-        h->ny[i] = side * n[1];
-        h->nz[i] = side * n[2];
-        h->px[i] = uniform(-1, 1);
-        h->py[i] = uniform(-1, 1);
-        h->pz[i] = uniform(-1, 1);
+        const float side = n[0] * rays->d[0][i] + n[1] * rays->d[1][i] + n[2] * rays->d[2][i] > 0 ? -1 : 1;
+        set_lane(h->n, i, (const float[3]){side * n[0], side * n[1], side * n[2]});
+        draw_lane(h->p, i, 1);
         h->u[i] = uniform(-1, 1);
         h->v[i] = uniform(-1, 1);
         h->back[i] = uniform(0, 1) < 0.5;

@@ -182,12 +182,13 @@ static void refine(const part *p, const koksma__landings *l, const koksma__rays 
 {
     const uint32_t *index = p->mesh->indices + 3 * (size_t)(l->primitive[i] - p->first);
     const float w[3] = {1 - l->u[i] - l->v[i], l->u[i], l->v[i]};
-    const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]}, n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
+    const float d[3] = {rays->d[0][i], rays->d[1][i], rays->d[2][i]},
+                n[3] = {hits->n[0][i], hits->n[1][i], hits->n[2][i]};
     float bent[3];
     if (p->smooth && smooth_normal(p, index, p->steps ? rays->time[i] : 0, w, n, d, bent)) {
-        hits->nx[i] = bent[0];
-        hits->ny[i] = bent[1];
-        hits->nz[i] = bent[2];
+        hits->n[0][i] = bent[0];
+        hits->n[1][i] = bent[1];
+        hits->n[2][i] = bent[2];
     }
     for (int c = 0; p->mesh->uvs && c < 3; c++) {
         hits->u[i] += w[c] * p->mesh->uvs[2 * (size_t)index[c]];
@@ -208,13 +209,6 @@ typedef struct embree {
     koksma__batch_faces few; /* all triangles, if they are few and at rest, in place of the tree; otherwise n = 0 */
     part parts[];
 } embree;
-
-/* The origins of a block of rays. */
-typedef struct starts {
-    KOKSMA__LANES(float, x);
-    KOKSMA__LANES(float, y);
-    KOKSMA__LANES(float, z);
-} starts;
 
 static const char *tracer(void)
 {
@@ -237,18 +231,13 @@ static const part *part_of(const embree *e, int32_t primitive)
     return &e->parts[low];
 }
 
-static void set_starts(const float *x, const float *y, const float *z, int n, starts *s)
-{
-    memcpy(s->x, x, (size_t)n * sizeof *x);
-    memcpy(s->y, y, (size_t)n * sizeof *y);
-    memcpy(s->z, z, (size_t)n * sizeof *z);
-}
-
-/* The origins, moved off the triangles on which the rays start. */
-static void start(const embree *e, const int32_t *from, const float *times, const float *const d[3], int n, starts *s)
+/* Sets the origins s of n rays, moved off the triangles on which they start. */
+static void start(const embree *e, const int32_t *from, const float *times, const koksma__lanes *o,
+                  const koksma__lanes *d, int n, koksma__lanes *s)
 {
     koksma__landings on;
     int any = 0;
+    memcpy(s, o, 3 * sizeof *s);
     for (int i = 0; from && i < n; i++) {
         any |= from[i] >= e->n_shapes;
     }
@@ -263,7 +252,7 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
             set_lane(p, (uint32_t)(from[i] - p->first), e->moves ? times[i] : 0, i, &on);
         }
     }
-    e->batch->step_off(&on, d[0], d[1], d[2], n, s->x, s->y, s->z);
+    e->batch->step_off(&on, d, n, s);
 }
 
 /* ---- Packets ---------------------------------------------------------------------------------------------- */
@@ -292,18 +281,18 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
    place of the primitive) and the triangle to `on`; it returns the number of these rays. shade_N sets the light of
    the shadow rays that are blocked to 0. */
 #define PACKETS(WIDTH)                                                                                               \
-    static int intersect_##WIDTH(const embree *e, const starts *s, const koksma__rays *rays, int start,              \
+    static int intersect_##WIDTH(const embree *e, const koksma__lanes *s, const koksma__rays *rays, int start,       \
                                  bool from_camera, const koksma__hits *hits, koksma__landings *on)                   \
     {                                                                                                                \
         _Alignas(64) int valid[WIDTH];                                                                               \
         struct RTCRayHit##WIDTH packet;                                                                              \
         int landed = 0;                                                                                              \
-        memcpy(packet.ray.org_x, s->x + start, sizeof packet.ray.org_x);                                             \
-        memcpy(packet.ray.org_y, s->y + start, sizeof packet.ray.org_y);                                             \
-        memcpy(packet.ray.org_z, s->z + start, sizeof packet.ray.org_z);                                             \
-        memcpy(packet.ray.dir_x, rays->dx + start, sizeof packet.ray.dir_x);                                         \
-        memcpy(packet.ray.dir_y, rays->dy + start, sizeof packet.ray.dir_y);                                         \
-        memcpy(packet.ray.dir_z, rays->dz + start, sizeof packet.ray.dir_z);                                         \
+        memcpy(packet.ray.org_x, s[0] + start, sizeof packet.ray.org_x);                                             \
+        memcpy(packet.ray.org_y, s[1] + start, sizeof packet.ray.org_y);                                             \
+        memcpy(packet.ray.org_z, s[2] + start, sizeof packet.ray.org_z);                                             \
+        memcpy(packet.ray.dir_x, rays->d[0] + start, sizeof packet.ray.dir_x);                                       \
+        memcpy(packet.ray.dir_y, rays->d[1] + start, sizeof packet.ray.dir_y);                                       \
+        memcpy(packet.ray.dir_z, rays->d[2] + start, sizeof packet.ray.dir_z);                                       \
         memcpy(packet.ray.tfar, hits->t + start, sizeof packet.ray.tfar);                                            \
         for (int i = 0; i < WIDTH; i++) {                                                                            \
             valid[i] = -1;                                                                                           \
@@ -332,7 +321,7 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
         return landed;                                                                                               \
     }                                                                                                                \
                                                                                                                      \
-    static void shade_##WIDTH(const embree *e, const starts *s, const koksma__hits *hits, int start,                 \
+    static void shade_##WIDTH(const embree *e, const koksma__lanes *s, const koksma__hits *hits, int start,          \
                               koksma__shadows *shadows)                                                              \
     {                                                                                                                \
         _Alignas(64) int valid[WIDTH];                                                                               \
@@ -347,12 +336,12 @@ static void start(const embree *e, const int32_t *from, const float *times, cons
             packet.id[i] = packet.flags[i] = 0;                                                                      \
             packet.time[i] = e->moves ? hits->time[start + i] : 0;                                                   \
             /* the ray begins at the origin that was moved off the triangle, and ends where it ended before */       \
-            packet.dir_x[i] = shadows->dx[start + i] + (hits->px[start + i] - s->x[start + i]);                      \
-            packet.dir_y[i] = shadows->dy[start + i] + (hits->py[start + i] - s->y[start + i]);                      \
-            packet.dir_z[i] = shadows->dz[start + i] + (hits->pz[start + i] - s->z[start + i]);                      \
-            packet.org_x[i] = s->x[start + i];                                                                       \
-            packet.org_y[i] = s->y[start + i];                                                                       \
-            packet.org_z[i] = s->z[start + i];                                                                       \
+            packet.dir_x[i] = shadows->d[0][start + i] + (hits->p[0][start + i] - s[0][start + i]);                  \
+            packet.dir_y[i] = shadows->d[1][start + i] + (hits->p[1][start + i] - s[1][start + i]);                  \
+            packet.dir_z[i] = shadows->d[2][start + i] + (hits->p[2][start + i] - s[2][start + i]);                  \
+            packet.org_x[i] = s[0][start + i];                                                                       \
+            packet.org_y[i] = s[1][start + i];                                                                       \
+            packet.org_z[i] = s[2][start + i];                                                                       \
         }                                                                                                            \
         if (any) {                                                                                                   \
             CONTEXT(false);                                                                                          \
@@ -370,18 +359,16 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
                    koksma__hits *hits)
 {
     const embree *e = geometry->made;
-    const float *const d[3] = {rays->dx, rays->dy, rays->dz};
-    starts s;
+    _Alignas(64) koksma__lanes s[3];
     koksma__landings on;
     int count = e->shapes.closest(&e->shapes, rays, from, n, hits), landed = 0, fine = 0;
-    set_starts(rays->ox, rays->oy, rays->oz, n, &s);
-    start(e, from, rays->time, d, n, &s);
+    start(e, from, rays->time, rays->o, rays->d, n, s);
     if (e->few.n) {
-        landed = e->batch->meet_faces(&e->few, s.x, s.y, s.z, rays, hits, n, &on);
+        landed = e->batch->meet_faces(&e->few, s, rays, hits, n, &on);
     }
     for (int i = 0; !e->few.n && i < n; i += e->wide ? 16 : 8) {
         landed +=
-            e->wide ? intersect_16(e, &s, rays, i, !from, hits, &on) : intersect_8(e, &s, rays, i, !from, hits, &on);
+            e->wide ? intersect_16(e, s, rays, i, !from, hits, &on) : intersect_8(e, s, rays, i, !from, hits, &on);
     }
     if (!landed) {
         return count;
@@ -410,19 +397,17 @@ static int closest(const koksma__geometry *geometry, const koksma__rays *rays, c
 static void occlude(const koksma__geometry *geometry, const koksma__hits *hits, int n, koksma__shadows *shadows)
 {
     const embree *e = geometry->made;
-    const float *const d[3] = {shadows->dx, shadows->dy, shadows->dz};
-    starts s;
+    _Alignas(64) koksma__lanes s[3];
     e->shapes.occlude(&e->shapes, hits, n, shadows);
-    set_starts(hits->px, hits->py, hits->pz, n, &s);
-    start(e, hits->primitive, hits->time, d, n, &s);
+    start(e, hits->primitive, hits->time, hits->p, shadows->d, n, s);
     if (e->few.n) {
-        e->batch->shade_faces(&e->few, s.x, s.y, s.z, hits, n, shadows);
+        e->batch->shade_faces(&e->few, s, hits, n, shadows);
     }
     for (int i = 0; !e->few.n && i < n; i += e->wide ? 16 : 8) {
         if (e->wide) {
-            shade_16(e, &s, hits, i, shadows);
+            shade_16(e, s, hits, i, shadows);
         } else {
-            shade_8(e, &s, hits, i, shadows);
+            shade_8(e, s, hits, i, shadows);
         }
     }
 }

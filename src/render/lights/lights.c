@@ -63,12 +63,10 @@ static void accumulate(koksma__lights *lights)
 static void set_estimate(const koksma__shading_light *l, int i, koksma__batch_lights *to)
 {
     const koksma__light_distance distance = l->kind->distance;
-    to->cx[i] = l->centre[0];
-    to->cy[i] = l->centre[1];
-    to->cz[i] = l->centre[2];
-    to->nx[i] = l->normal[0];
-    to->ny[i] = l->normal[1];
-    to->nz[i] = l->normal[2];
+    for (int k = 0; k < 3; k++) {
+        to->centre[k][i] = l->centre[k];
+        to->normal[k][i] = l->normal[k];
+    }
     to->flat[i] = l->kind->is_flat;
     to->reach[i] = l->reach > 1e-6f ? l->reach : 1e-6f;
     to->power[i] = distance != KOKSMA__LIGHT_NEAR ? 0 : l->kind->is_flat ? l->power : l->power / 4;

@@ -98,6 +98,12 @@ KOKSMA__INLINE float koksma__schlick(float reflectance, float at_facet)
     return reflectance + (1 - reflectance) * (square * square * rest);
 }
 
+KOKSMA__INLINE koksma__v3 koksma__schlick3(koksma__v3 reflectance, float at_facet)
+{
+    return (koksma__v3){koksma__schlick(reflectance.x, at_facet), koksma__schlick(reflectance.y, at_facet),
+                        koksma__schlick(reflectance.z, at_facet)};
+}
+
 /* Samples the direction mirrored at a visible facet (Heitz 2018, listing 1). */
 KOKSMA__INLINE koksma__v3 koksma__facet_direction(const koksma__facets *f, float u, float v)
 {
@@ -153,9 +159,8 @@ KOKSMA__INLINE float koksma__coat_value(const koksma__coat *c, koksma__v3 w, kok
     const float to = koksma__v3_dot(c->n, w), lambert = c->diffuse * koksma__lambert_pdf(to);
     const float rest = koksma__coat_passes(c, koksma__v3_dot(c->n, c->out)) * koksma__coat_passes(c, to);
     const float pdf = c->glossy > 0 ? t.pdf : 0, scale = pdf * t.ratio;
-    *value = (koksma__v3){c->albedo.x * lambert * rest + scale * koksma__schlick(c->reflectance.x, t.at_facet),
-                          c->albedo.y * lambert * rest + scale * koksma__schlick(c->reflectance.y, t.at_facet),
-                          c->albedo.z * lambert * rest + scale * koksma__schlick(c->reflectance.z, t.at_facet)};
+    *value = koksma__v3_add(koksma__v3_scale(koksma__v3_scale(c->albedo, lambert), rest),
+                            koksma__v3_scale(koksma__schlick3(c->reflectance, t.at_facet), scale));
     return c->share * lambert + (1 - c->share) * pdf;
 }
 

@@ -27,35 +27,20 @@ static inline size_t koksma__order_words(size_t n)
     return n <= KOKSMA__SHUFFLED ? (n + 3) / 4 * 4 : 8;
 }
 
-#define KOKSMA__LIGHT_LANES(name) _Alignas(64) float name[KOKSMA__MAX_BATCH_LIGHTS]
+typedef float koksma__lanes[KOKSMA__BLOCK];
 #define KOKSMA__LANES(type, name) _Alignas(64) type name[KOKSMA__BLOCK]
 
 /* Rays o + t d, t > 0; d need not have length 1. `time` is read only in scenes with motion. */
 typedef struct koksma__rays {
-    KOKSMA__LANES(float, ox);
-    KOKSMA__LANES(float, oy);
-    KOKSMA__LANES(float, oz);
-    KOKSMA__LANES(float, dx);
-    KOKSMA__LANES(float, dy);
-    KOKSMA__LANES(float, dz);
-    KOKSMA__LANES(float, time);
+    _Alignas(64) koksma__lanes o[3], d[3], time;
 } koksma__rays;
 
-/* The closest hits: the position; the unit normal on the side of the ray's origin; `back`, which is 1 if the ray
+/* The closest hits: the position p; the unit normal n on the side of the ray's origin; `back`, which is 1 if the ray
    hit the back (the inside of a sphere, or the side opposite to a flat shape's normal); the coordinates (u, v) on
    flat shapes; and the number of the primitive. primitive is -1 where the ray hit nothing; material is -1 there
    and on lights. `time` is for shadow rays in scenes with motion. */
 typedef struct koksma__hits {
-    KOKSMA__LANES(float, t);
-    KOKSMA__LANES(float, px);
-    KOKSMA__LANES(float, py);
-    KOKSMA__LANES(float, pz);
-    KOKSMA__LANES(float, nx);
-    KOKSMA__LANES(float, ny);
-    KOKSMA__LANES(float, nz);
-    KOKSMA__LANES(float, u);
-    KOKSMA__LANES(float, v);
-    KOKSMA__LANES(float, time);
+    _Alignas(64) koksma__lanes t, p[3], n[3], u, v, time;
     KOKSMA__LANES(int32_t, back);
     KOKSMA__LANES(int32_t, primitive);
     KOKSMA__LANES(int32_t, material);
@@ -65,10 +50,7 @@ typedef struct koksma__hits {
    blocks them. aimed[i] is the shape of the light to which ray i goes, which never blocks that ray, or -1; NULL:
    no light has a shape. */
 typedef struct koksma__shadows {
-    KOKSMA__LANES(float, dx);
-    KOKSMA__LANES(float, dy);
-    KOKSMA__LANES(float, dz);
-    KOKSMA__LANES(float, light);
+    _Alignas(64) koksma__lanes d[3], light;
     const int32_t *aimed;
 } koksma__shadows;
 
@@ -124,11 +106,9 @@ typedef struct koksma__batch_shapes {
 
 /* Triangles that rays hit or on which rays start; lanes without a triangle have primitive -1. */
 typedef struct koksma__landings {
-    _Alignas(64) float corners[9][KOKSMA__BLOCK]; /* 3 c + k: coordinate k of corner c */
-    _Alignas(64) float shift[3][KOKSMA__BLOCK];   /* displacement by motion */
-    KOKSMA__LANES(float, u);                      /* weight of corner 1 */
-    KOKSMA__LANES(float, v);                      /* weight of corner 2 */
-    KOKSMA__LANES(float, t);
+    _Alignas(64) koksma__lanes corners[9]; /* 3 c + k: coordinate k of corner c */
+    _Alignas(64) koksma__lanes shift[3];   /* displacement by motion */
+    _Alignas(64) koksma__lanes u, v, t;    /* u, v: the weights of the corners 1 and 2 */
     KOKSMA__LANES(int32_t, primitive);
     KOKSMA__LANES(int32_t, material);
     KOKSMA__LANES(uint32_t, triangle); /* index of the triangle in its mesh */
@@ -168,27 +148,23 @@ typedef struct koksma__batch_light {
 } koksma__batch_light;
 
 enum { KOKSMA__MAX_BATCH_LIGHTS = 256 };
+typedef float koksma__light_numbers[KOKSMA__MAX_BATCH_LIGHTS];
 
 /* The lights, one in each lane, for choosing a light with a probability proportional to its estimate. The estimate at
    p with normal n is
      fixed + power max(least, n.d / r) max(least, cosine at the light) / r^2,
    or 0 if no part of the light can be seen from p; d is the vector from p to the centre of the light, r = max(|d|,
-   reach), and least is 0.05 (batch_lights.c). Distant lights have their direction in (nx, ny, nz) and power 0. */
+   reach), and least is 0.05 (batch_lights.c). Distant lights have their direction in `normal` and power 0. */
 typedef struct koksma__batch_lights {
     /* n is the number of lights; `whole` is n rounded up to a multiple of KOKSMA__LANE_STEP; the lanes added are dark
        lights */
     int n, whole;
-    KOKSMA__LIGHT_LANES(cx);
-    KOKSMA__LIGHT_LANES(cy);
-    KOKSMA__LIGHT_LANES(cz);
-    KOKSMA__LIGHT_LANES(nx);
-    KOKSMA__LIGHT_LANES(ny);
-    KOKSMA__LIGHT_LANES(nz);
-    KOKSMA__LIGHT_LANES(flat);  /* 1 if the light shines only on the side of its normal, 0 if in all directions */
-    KOKSMA__LIGHT_LANES(power); /* power of a light that has a position; 0 for others */
-    KOKSMA__LIGHT_LANES(reach);
-    KOKSMA__LIGHT_LANES(far);   /* irradiance of a directional light on a surface that faces it */
-    KOKSMA__LIGHT_LANES(fixed); /* constant part of the estimate of an environment light */
+    _Alignas(64) koksma__light_numbers centre[3], normal[3];
+    koksma__light_numbers flat;  /* 1 if the light shines only on the side of its normal, 0 if in all directions */
+    koksma__light_numbers power; /* power of a light that has a position; 0 for others */
+    koksma__light_numbers reach;
+    koksma__light_numbers far;   /* irradiance of a directional light on a surface that faces it */
+    koksma__light_numbers fixed; /* constant part of the estimate of an environment light */
 } koksma__batch_lights;
 
 struct koksma__surfaces;

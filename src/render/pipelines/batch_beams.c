@@ -42,15 +42,6 @@ static emitter emitter_of(const koksma__shading_light *l)
                      .radius = l->half[0]};
 }
 
-static void put(koksma__v3 v, int i, koksma__lanes *to)
-{
-    to[0][i] = v.x;
-    to[1][i] = v.y;
-    to[2][i] = v.z;
-}
-
-#define AT(a, i) ((koksma__v3){(a)[0][i], (a)[1][i], (a)[2][i]})
-
 /* Returns the emitter of lane i, which is `one` if all lanes share it. */
 INLINE emitter pick(const emitter *one, const emitters *restrict each, int i)
 {
@@ -61,21 +52,14 @@ INLINE emitter pick(const emitter *one, const emitters *restrict each, int i)
 INLINE void set_beam(koksma__beams *restrict out, int i, int mine, koksma__v3 d, koksma__v3 w, koksma__v3 value,
                      float pdf, int lit)
 {
-    out->d[0][i] = mine ? d.x : out->d[0][i];
-    out->d[1][i] = mine ? d.y : out->d[1][i];
-    out->d[2][i] = mine ? d.z : out->d[2][i];
-    out->w[0][i] = mine ? w.x : out->w[0][i];
-    out->w[1][i] = mine ? w.y : out->w[1][i];
-    out->w[2][i] = mine ? w.z : out->w[2][i];
-    out->value[0][i] = mine ? value.x : out->value[0][i];
-    out->value[1][i] = mine ? value.y : out->value[1][i];
-    out->value[2][i] = mine ? value.z : out->value[2][i];
+    koksma__put(out->d, i, mine, d);
+    koksma__put(out->w, i, mine, w);
+    koksma__put(out->value, i, mine, value);
     out->pdf[i] = mine ? pdf : out->pdf[i];
     out->lit[i] = mine ? lit : out->lit[i];
 }
 
 #define MINE(form_, i) (one ? l->light[i] >= 0 : each->form[i] == (form_))
-#define POSITION(h, i) ((koksma__v3){(h)->px[i], (h)->py[i], (h)->pz[i]})
 
 INLINE void flat_beams(const emitter *one, const emitters *restrict each, const koksma__light_lanes *restrict l,
                        const koksma__hits *restrict h, const koksma__lanes *restrict u, bool disk, int n,
@@ -90,7 +74,7 @@ INLINE void flat_beams(const emitter *one, const emitters *restrict each, const 
         }
         const koksma__v3 on =
             koksma__v3_add(e.centre, koksma__v3_add(koksma__v3_scale(e.u, x), koksma__v3_scale(e.v, y)));
-        const koksma__v3 d = koksma__v3_subtract(on, POSITION(h, i));
+        const koksma__v3 d = koksma__v3_subtract(on, AT(h->p, i));
         koksma__v3 w;
         const float pdf = koksma__flat_beam(d, e.normal, e.area, &w);
         set_beam(out, i, MINE(disk ? KOKSMA__BEAMS_DISK : KOKSMA__BEAMS_RECTANGLE, i), d, w,
@@ -107,7 +91,7 @@ INLINE void cone_beams(const emitter *one, const emitters *restrict each, const 
         const emitter e = pick(one, each, i);
         koksma__v3 d, w;
         const float pdf =
-            koksma__cone_beam(koksma__v3_subtract(e.centre, POSITION(h, i)), e.radius, u[0][i], u[1][i], &d, &w);
+            koksma__cone_beam(koksma__v3_subtract(e.centre, AT(h->p, i)), e.radius, u[0][i], u[1][i], &d, &w);
         set_beam(out, i, MINE(KOKSMA__BEAMS_CONE, i), d, w, koksma__v3_scale(e.radiance, 1 / pdf), pdf, pdf > 0);
     }
 }
@@ -157,8 +141,8 @@ static bool choose_face(const koksma__shading_light *light, float u, int i, mesh
     for (int k = 0; k < 9; k++) {
         to->corners[k][i] = face->corners[k];
     }
-    put(koksma__v3_of(face->normal), i, to->normal);
-    put(koksma__v3_of(light->radiance), i, to->radiance);
+    koksma__put(to->normal, i, 1, koksma__v3_of(face->normal));
+    koksma__put(to->radiance, i, 1, koksma__v3_of(light->radiance));
     to->largest[i] = face->largest;
     to->density[i] = m->map ? m->densities[low] : 1 / light->area;
     to->root[i] = (float)(size > 0 ? (target - m->cdf[low]) / size : 0);
@@ -225,7 +209,7 @@ INLINE void mesh_lanes(const mesh_samples *restrict s, const koksma__hits *restr
         const koksma__v3 on = koksma__v3_add(
             koksma__v3_scale(AT(s->corners, i), rest),
             koksma__v3_add(koksma__v3_scale(AT(s->corners + 3, i), a), koksma__v3_scale(AT(s->corners + 6, i), b)));
-        const koksma__v3 d = koksma__v3_subtract(on, POSITION(h, i));
+        const koksma__v3 d = koksma__v3_subtract(on, AT(h->p, i));
         const float square = koksma__v3_dot(d, d), length = sqrtf(square), facing = -koksma__v3_dot(normal, d);
         const float side = (float)(1 - 2 * (s->two_sided[i] & (facing < 0))), at_light = side * facing;
         const float pdf = square * length * s->density[i] / at_light;
@@ -305,7 +289,7 @@ static void look_around(const koksma__environment *e, const koksma__lanes *restr
     }
     for (int i = 0; i < n; i++) {
         const koksma__texel t = {rows[i], columns[i], sines[i]};
-        put(koksma__environment_texel_radiance(e, t), i, radiance);
+        koksma__put(radiance, i, 1, koksma__environment_texel_radiance(e, t));
         pdf[i] = koksma__environment_texel_pdf(e, t);
     }
 }
@@ -405,9 +389,7 @@ static void around_beams(const koksma__environment *e, const emitters *each, con
         float sine;
         const koksma__v3 direction =
             koksma__environment_direction(e, alike ? u[0][i] : x[i], alike ? polar : y[i], &sine);
-        w[0][i] = direction.x;
-        w[1][i] = direction.y;
-        w[2][i] = direction.z;
+        koksma__put(w, i, 1, direction);
     }
     look_around(e, w, n, radiance, pdf);
     LANES_APART
@@ -425,12 +407,9 @@ void BATCH_NAME(around)(const struct koksma__environment *e, const koksma__rays 
     _Alignas(64) koksma__lanes w[3];
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const koksma__v3 d = koksma__v3_unit((koksma__v3){rays->dx[i], rays->dy[i], rays->dz[i]});
         const int missed = hit[i] < 0; /* the lanes of rays that hit something all look up one texel; their results
                                           are not used */
-        w[0][i] = missed ? d.x : 0;
-        w[1][i] = missed ? d.y : 1;
-        w[2][i] = missed ? d.z : 0;
+        koksma__put(w, i, 1, koksma__either(missed, koksma__v3_unit(AT(rays->d, i)), (koksma__v3){0, 1, 0}));
     }
     look_around(e, w, n, radiance, pdf);
 }
@@ -443,14 +422,14 @@ static void ray_beams(const koksma__light_lanes *l, const koksma__hits *h, const
     for (int i = 0; i < n; i++) {
         const koksma__shading_light *light = l->light[i] < 0 ? NULL : &l->lights[l->light[i]];
         if (light && (l->centres || light->kind->form == KOKSMA__BEAMS_RAYS)) {
-            const float p[3] = {h->px[i], h->py[i], h->pz[i]}, pair[2] = {u[0][i], u[1][i]};
+            const float p[3] = {h->p[0][i], h->p[1][i], h->p[2][i]}, pair[2] = {u[0][i], u[1][i]};
             koksma__beam beam;
             out->lit[i] = l->centres ? light->kind->centre && light->kind->centre(light, p, &beam)
                                      : light->kind->sample(light, p, pair, &beam);
             if (out->lit[i]) {
-                put(koksma__v3_of(beam.d), i, out->d);
-                put(koksma__v3_of(beam.w), i, out->w);
-                put(koksma__v3_of(beam.value), i, out->value);
+                koksma__put(out->d, i, 1, koksma__v3_of(beam.d));
+                koksma__put(out->w, i, 1, koksma__v3_of(beam.w));
+                koksma__put(out->value, i, 1, koksma__v3_of(beam.value));
                 out->pdf[i] = beam.pdf;
             }
         }
@@ -494,11 +473,11 @@ static void own_beams(const koksma__light_lanes *l, const koksma__hits *h, const
     for (int i = 0; i < n; i++) {
         const koksma__shading_light *light = &l->lights[l->light[i] < 0 ? 0 : l->light[i]];
         const emitter e = emitter_of(light);
-        put(e.centre, i, each.centre);
-        put(e.u, i, each.u);
-        put(e.v, i, each.v);
-        put(e.normal, i, each.normal);
-        put(e.radiance, i, each.radiance);
+        koksma__put(each.centre, i, 1, e.centre);
+        koksma__put(each.u, i, 1, e.u);
+        koksma__put(each.v, i, 1, e.v);
+        koksma__put(each.normal, i, 1, e.normal);
+        koksma__put(each.radiance, i, 1, e.radiance);
         each.area[i] = e.area;
         each.radius[i] = e.radius;
         each.form[i] = l->light[i] < 0 ? -1 : (int32_t)light->kind->form;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "render/pipelines/batch.h"
+#include "render/vector3.h"
 
 #ifdef __AVX512F__
 #include <immintrin.h>
@@ -30,6 +31,45 @@
 
 /* Forces inlining of functions that are compiled once for each value of a constant argument. */
 #define INLINE static inline __attribute__((always_inline))
+
+/* The vector of lane i of three arrays. */
+#define AT(a, i) ((koksma__v3){(a)[0][i], (a)[1][i], (a)[2][i]})
+
+INLINE float koksma__smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+INLINE float koksma__larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+INLINE koksma__v3 koksma__either(int first, koksma__v3 a, koksma__v3 b)
+{
+    return (koksma__v3){first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
+/* Stores a vector in lane i where `mine`. */
+INLINE void koksma__put(koksma__lanes *restrict to, int i, int mine, koksma__v3 v)
+{
+    to[0][i] = mine ? v.x : to[0][i];
+    to[1][i] = mine ? v.y : to[1][i];
+    to[2][i] = mine ? v.z : to[2][i];
+}
+
+/* Stores the hit of lane i, but for t and the primitive, where `mine`; on a surface of normal n, of which `side` is -1 where
+   the ray meets the back. */
+INLINE void koksma__put_hit(koksma__hits *restrict h, int i, int mine, koksma__v3 p, koksma__v3 n, float side,
+                            float u, float v, int32_t material)
+{
+    koksma__put(h->p, i, mine, p);
+    koksma__put(h->n, i, mine, koksma__v3_scale(n, side));
+    h->u[i] = mine ? u : h->u[i];
+    h->v[i] = mine ? v : h->v[i];
+    h->back[i] = mine ? side < 0 : h->back[i];
+    h->material[i] = mine ? material : h->material[i];
+}
 
 /* Returns how many of the first n rays have their closest hit on the primitive. */
 INLINE int koksma__batch_count_hits(const koksma__hits *h, int32_t id, int n)
@@ -113,6 +153,14 @@ INLINE void koksma__batch_pull_whole(const void *restrict from, const koksma__pi
     }
 }
 
+INLINE void koksma__batch_pull_three(const koksma__lanes *restrict from, const koksma__picks *restrict p,
+                                     koksma__lanes *restrict to)
+{
+    for (int k = 0; k < 3; k++) {
+        koksma__batch_pull_whole(from[k], p, to[k]);
+    }
+}
+
 /* The number of lanes of whole steps. */
 INLINE int koksma__batch_pulled(const koksma__picks *p)
 {
@@ -129,20 +177,10 @@ INLINE int koksma__batch_pulled(const koksma__picks *p)
 #define KOKSMA__BOX_MARGIN 0x1p-15f
 
 typedef struct koksma__slabs {
-    _Alignas(64) float above[3][KOKSMA__BLOCK]; /* the origin plus the margin */
-    _Alignas(64) float below[3][KOKSMA__BLOCK];
-    _Alignas(64) float inverse[3][KOKSMA__BLOCK]; /* of the direction, whose coordinates are not 0 */
+    _Alignas(64) koksma__lanes above[3]; /* the origin plus the margin */
+    _Alignas(64) koksma__lanes below[3];
+    _Alignas(64) koksma__lanes inverse[3]; /* of the direction, whose coordinates are not 0 */
 } koksma__slabs;
-
-INLINE float koksma__smaller(float a, float b)
-{
-    return a < b ? a : b;
-}
-
-INLINE float koksma__larger(float a, float b)
-{
-    return a > b ? a : b;
-}
 
 /* 1 / d, where |d| counts as at least `least`. */
 INLINE float koksma__bounded_inverse(float d, float least)
@@ -152,24 +190,18 @@ INLINE float koksma__bounded_inverse(float d, float least)
 }
 
 /* size: that of koksma__batch_shapes. */
-INLINE void koksma__slabs_of(const float *const o[3], const float *const d[3], float size, int n,
+INLINE void koksma__slabs_of(const koksma__lanes *restrict o, const koksma__lanes *restrict d, float size, int n,
                              koksma__slabs *restrict to)
 {
-    const float *restrict ox = o[0], *restrict oy = o[1], *restrict oz = o[2];
-    const float *restrict dx = d[0], *restrict dy = d[1], *restrict dz = d[2];
     for (int i = 0; i < STEP(n); i++) {
-        const float margin = KOKSMA__BOX_MARGIN * (fabsf(ox[i]) + fabsf(oy[i]) + fabsf(oz[i]) + size);
-        const float most = koksma__larger(koksma__larger(fabsf(dx[i]), fabsf(dy[i])), fabsf(dz[i]));
+        const float margin = KOKSMA__BOX_MARGIN * (fabsf(o[0][i]) + fabsf(o[1][i]) + fabsf(o[2][i]) + size);
+        const float most = koksma__larger(koksma__larger(fabsf(d[0][i]), fabsf(d[1][i])), fabsf(d[2][i]));
         const float least = koksma__larger(0x1p-24f * most, 1e-30f);
-        to->above[0][i] = ox[i] + margin;
-        to->above[1][i] = oy[i] + margin;
-        to->above[2][i] = oz[i] + margin;
-        to->below[0][i] = ox[i] - margin;
-        to->below[1][i] = oy[i] - margin;
-        to->below[2][i] = oz[i] - margin;
-        to->inverse[0][i] = koksma__bounded_inverse(dx[i], least);
-        to->inverse[1][i] = koksma__bounded_inverse(dy[i], least);
-        to->inverse[2][i] = koksma__bounded_inverse(dz[i], least);
+        for (int k = 0; k < 3; k++) {
+            to->above[k][i] = o[k][i] + margin;
+            to->below[k][i] = o[k][i] - margin;
+            to->inverse[k][i] = koksma__bounded_inverse(d[k][i], least);
+        }
     }
 }
 
@@ -180,16 +212,15 @@ INLINE void koksma__near_bundle(const koksma__batch_bundle *restrict b, const ko
                                 koksma__picks *restrict to)
 {
     KOKSMA__LANES(int32_t, flags);
-    const float lx = b->low[0], ly = b->low[1], lz = b->low[2], hx = b->high[0], hy = b->high[1], hz = b->high[2];
+    const koksma__batch_bundle box = *b;
     for (int i = 0; i < STEP(n); i++) {
-        const float x0 = (lx - s->above[0][i]) * s->inverse[0][i], x1 = (hx - s->below[0][i]) * s->inverse[0][i];
-        const float y0 = (ly - s->above[1][i]) * s->inverse[1][i], y1 = (hy - s->below[1][i]) * s->inverse[1][i];
-        const float z0 = (lz - s->above[2][i]) * s->inverse[2][i], z1 = (hz - s->below[2][i]) * s->inverse[2][i];
-        const float in = koksma__larger(koksma__larger(koksma__smaller(x0, x1), koksma__smaller(y0, y1)),
-                                        koksma__larger(koksma__smaller(z0, z1), 0));
-        const float last = end ? end[i] : KOKSMA__SHADOW_END;
-        const float out = koksma__smaller(koksma__smaller(koksma__larger(x0, x1), koksma__larger(y0, y1)),
-                                          koksma__smaller(koksma__larger(z0, z1), last));
+        float in = 0, out = end ? end[i] : KOKSMA__SHADOW_END;
+        for (int k = 0; k < 3; k++) {
+            const float one = (box.low[k] - s->above[k][i]) * s->inverse[k][i];
+            const float other = (box.high[k] - s->below[k][i]) * s->inverse[k][i];
+            in = koksma__larger(in, koksma__smaller(one, other));
+            out = koksma__smaller(out, koksma__larger(one, other));
+        }
         flags[i] = (in <= out) & (wanted ? wanted[i] != 0 : 1);
     }
     koksma__batch_pick(flags, n, to);

@@ -13,31 +13,29 @@
 #define LEAST 0.05f /* lower bound of the cosine for a light that is partly above the horizon */
 
 /* Returns the estimate of light i at a point. */
-INLINE float estimate_at(const koksma__batch_lights *restrict l, int i, float px, float py, float pz, float nx,
-                         float ny, float nz)
+INLINE float estimate_at(const koksma__batch_lights *restrict l, int i, koksma__v3 p, koksma__v3 n)
 {
-    const float dx = l->cx[i] - px, dy = l->cy[i] - py, dz = l->cz[i] - pz;
-    const float square = dx * dx + dy * dy + dz * dz, distance = sqrtf(square), reach = l->reach[i];
+    const koksma__v3 d = koksma__v3_subtract(AT(l->centre, i), p), normal = AT(l->normal, i);
+    const float distance = sqrtf(koksma__v3_dot(d, d)), reach = l->reach[i];
     const float near = distance > reach ? distance : reach, scale = 1 / near;
-    const float up = nx * dx + ny * dy + nz * dz;
-    const float facing = -(l->nx[i] * dx + l->ny[i] * dy + l->nz[i] * dz);
+    const float up = koksma__v3_dot(n, d), facing = -koksma__v3_dot(normal, d);
     const float down = l->flat[i] > 0 ? facing : distance;
-    const int apart = (nx == 0) & (ny == 0) & (nz == 0);
+    const int apart = (n.x == 0) & (n.y == 0) & (n.z == 0);
     const float cosine = apart ? 1 : up * scale, at_hit = cosine > LEAST ? cosine : LEAST;
     const float at_light = down * scale > LEAST ? down * scale : LEAST;
     const int seen = (up + reach > 0) & (down > 0);
     const float here = l->power[i] * at_hit * at_light * (scale * scale);
-    const float away = apart ? 1 : -(l->nx[i] * nx + l->ny[i] * ny + l->nz[i] * nz);
+    const float away = apart ? 1 : -koksma__v3_dot(normal, n);
     return (seen ? here : 0) + l->far[i] * (away > 0 ? away : 0) + l->fixed[i];
 }
 
 float BATCH_NAME(estimate)(const koksma__batch_lights *l, const float p[3], const float normal[3], float *out)
 {
-    const float px = p[0], py = p[1], pz = p[2], nx = normal[0], ny = normal[1], nz = normal[2];
+    const koksma__v3 at = koksma__v3_of(p), n = koksma__v3_of(normal);
     float sums[KOKSMA__LANE_STEP] = {0};
     for (int start = 0; start < l->whole; start += KOKSMA__LANE_STEP) {
         for (int k = 0; k < KOKSMA__LANE_STEP; k++) {
-            out[start + k] = estimate_at(l, start + k, px, py, pz, nx, ny, nz);
+            out[start + k] = estimate_at(l, start + k, at, n);
             sums[k] += out[start + k];
         }
     }
@@ -66,7 +64,7 @@ void BATCH_NAME(choose)(const koksma__batch_lights *l, const koksma__hits *restr
         float *restrict row = estimates[k];
         LANES_APART
         for (int i = 0; i < STEP(n); i++) {
-            const float value = estimate_at(l, k, h->px[i], h->py[i], h->pz[i], h->nx[i], h->ny[i], h->nz[i]);
+            const float value = estimate_at(l, k, AT(h->p, i), AT(h->n, i));
             row[i] = value;
             total[i] += value;
         }

@@ -62,10 +62,7 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
     int32_t traits = 0, lights = 0;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const koksma__v3 out = koksma__v3_unit((koksma__v3){-rays->dx[i], -rays->dy[i], -rays->dz[i]});
-        s->out[0][i] = out.x;
-        s->out[1][i] = out.y;
-        s->out[2][i] = out.z;
+        koksma__put(s->out, i, 1, koksma__v3_unit((koksma__v3){-rays->d[0][i], -rays->d[1][i], -rays->d[2][i]}));
         const int there = (h->primitive[i] >= 0) & (i < lanes);
         at[i] = there ? h->material[i] + 1 : 0;
         lights |= there & (h->material[i] < 0);
@@ -99,8 +96,12 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
 
 /* ---- Values --------------------------------------------------------------------------------------------------- */
 
-#define AT(a, i) ((koksma__v3){(a)[0][i], (a)[1][i], (a)[2][i]})
-#define NORMAL(h, i) ((koksma__v3){(h)->nx[i], (h)->ny[i], (h)->nz[i]})
+/* Adds the value and the density of lane i where `mine`. */
+INLINE void give(koksma__bsdf_values *restrict out, int i, int mine, koksma__v3 value, float pdf)
+{
+    koksma__put(out->value, i, mine, koksma__v3_add(AT(out->value, i), value));
+    out->pdf[i] += mine ? pdf : 0;
+}
 
 static void lambert_values(const koksma__surfaces *restrict s, const koksma__lanes *restrict w, int n,
                            koksma__bsdf_values *restrict out)
@@ -108,12 +109,8 @@ static void lambert_values(const koksma__surfaces *restrict s, const koksma__lan
     const koksma__hits *restrict h = s->hits;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const int mine = s->form[i] == KOKSMA__FORM_LAMBERT;
-        const float all = koksma__lambert_pdf(koksma__v3_dot(NORMAL(h, i), AT(w, i))), pdf = mine ? all : 0;
-        out->value[0][i] += s->albedo[0][i] * pdf;
-        out->value[1][i] += s->albedo[1][i] * pdf;
-        out->value[2][i] += s->albedo[2][i] * pdf;
-        out->pdf[i] += pdf;
+        const float pdf = koksma__lambert_pdf(koksma__v3_dot(AT(h->n, i), AT(w, i)));
+        give(out, i, s->form[i] == KOKSMA__FORM_LAMBERT, koksma__v3_scale(AT(s->albedo, i), pdf), pdf);
     }
 }
 
@@ -129,6 +126,11 @@ static lobe_shares shares_of(unsigned lobes)
     return (lobe_shares){diffuse, glossy, diffuse * (1 - glossy), diffuse * glossy};
 }
 
+INLINE koksma__v3 both_lobes(const koksma__surfaces *restrict s, int i, float lambert, float lobe)
+{
+    return koksma__v3_add(koksma__v3_scale(AT(s->albedo, i), lambert), koksma__v3_scale(AT(s->parameters, i), lobe));
+}
+
 static void lobe_values(const koksma__surfaces *restrict s, const koksma__lanes *restrict w, unsigned lobes, int n,
                         koksma__bsdf_values *restrict out)
 {
@@ -136,15 +138,12 @@ static void lobe_values(const koksma__surfaces *restrict s, const koksma__lanes 
     const lobe_shares shares = shares_of(lobes);
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const int mine = s->form[i] == KOKSMA__FORM_LOBES;
-        const koksma__v3 normal = NORMAL(h, i), direction = AT(w, i);
+        const koksma__v3 normal = AT(h->n, i), direction = AT(w, i);
         const float lambert = shares.diffuse * koksma__lambert_pdf(koksma__v3_dot(normal, direction));
         const float lobe = shares.glossy * koksma__lobe_pdf(normal, AT(s->out, i), s->parameters[3][i], direction);
         const float part = shares.fixed + shares.shared * s->derived[i];
-        out->value[0][i] += mine ? s->albedo[0][i] * lambert + s->parameters[0][i] * lobe : 0;
-        out->value[1][i] += mine ? s->albedo[1][i] * lambert + s->parameters[1][i] * lobe : 0;
-        out->value[2][i] += mine ? s->albedo[2][i] * lambert + s->parameters[2][i] * lobe : 0;
-        out->pdf[i] += mine ? part * lambert + (1 - part) * lobe : 0;
+        give(out, i, s->form[i] == KOKSMA__FORM_LOBES, both_lobes(s, i, lambert, lobe),
+             part * lambert + (1 - part) * lobe);
     }
 }
 
@@ -154,20 +153,16 @@ static void facet_values(const koksma__surfaces *restrict s, const koksma__lanes
     const koksma__hits *restrict h = s->hits;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const int mine = s->form[i] == KOKSMA__FORM_FACETS;
-        const koksma__facets facets = koksma__facets_of(NORMAL(h, i), AT(s->out, i), s->parameters[3][i]);
+        const koksma__facets facets = koksma__facets_of(AT(h->n, i), AT(s->out, i), s->parameters[3][i]);
         const koksma__facet_terms t = koksma__facet_terms_of(&facets, AT(w, i));
-        const float scale = t.pdf * t.ratio;
-        out->value[0][i] += mine ? scale * koksma__schlick(s->parameters[0][i], t.at_facet) : 0;
-        out->value[1][i] += mine ? scale * koksma__schlick(s->parameters[1][i], t.at_facet) : 0;
-        out->value[2][i] += mine ? scale * koksma__schlick(s->parameters[2][i], t.at_facet) : 0;
-        out->pdf[i] += mine ? t.pdf : 0;
+        give(out, i, s->form[i] == KOKSMA__FORM_FACETS,
+             koksma__v3_scale(koksma__schlick3(AT(s->parameters, i), t.at_facet), t.pdf * t.ratio), t.pdf);
     }
 }
 
 INLINE koksma__coat coat_at(const koksma__surfaces *restrict s, lobe_shares shares, int i)
 {
-    return koksma__coat_of((koksma__coat){.n = NORMAL(s->hits, i),
+    return koksma__coat_of((koksma__coat){.n = AT(s->hits->n, i),
                                           .out = AT(s->out, i),
                                           .albedo = AT(s->albedo, i),
                                           .reflectance = AT(s->parameters, i),
@@ -183,14 +178,10 @@ static void coated_values(const koksma__surfaces *restrict s, const koksma__lane
     const lobe_shares shares = shares_of(lobes);
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const int mine = s->form[i] == KOKSMA__FORM_COATED;
         const koksma__coat c = coat_at(s, shares, i);
         koksma__v3 value;
         const float pdf = koksma__coat_value(&c, AT(w, i), &value);
-        out->value[0][i] += mine ? value.x : 0;
-        out->value[1][i] += mine ? value.y : 0;
-        out->value[2][i] += mine ? value.z : 0;
-        out->pdf[i] += mine ? pdf : 0;
+        give(out, i, s->form[i] == KOKSMA__FORM_COATED, value, pdf);
     }
 }
 
@@ -251,9 +242,9 @@ INLINE void weigh(const koksma__light_lanes *restrict l, const koksma__beams *re
                     shared = most * (ours / (ours + met * (squared ? met : 1)));
         const int shares = weighed & (b->visible[i] != 0) & (sampled > 0);
         const float scale = (shares ? shared : 1) / probability;
-        reflected[0][i] += values->value[0][i] * b->value[0][i] * scale;
-        reflected[1][i] += values->value[1][i] * b->value[1][i] * scale;
-        reflected[2][i] += values->value[2][i] * b->value[2][i] * scale;
+        koksma__put(reflected, i, 1,
+                    koksma__v3_add(AT(reflected, i),
+                                   koksma__v3_scale(koksma__v3_times(AT(values->value, i), AT(b->value, i)), scale)));
     }
 }
 
@@ -281,9 +272,7 @@ int BATCH_NAME(reflect)(const struct koksma__surfaces *s, const struct koksma__l
     for (int i = 0; i < STEP(n); i++) {
         const int any = (reflected[0][i] > 0) | (reflected[1][i] > 0) | (reflected[2][i] > 0);
         const int all = any & (b->lit[i] != 0) & (s->form[i] >= 0);
-        shadows->dx[i] = all ? b->d[0][i] : 1;
-        shadows->dy[i] = all ? b->d[1][i] : 1;
-        shadows->dz[i] = all ? b->d[2][i] : 1;
+        koksma__put(shadows->d, i, 1, koksma__either(all, AT(b->d, i), (koksma__v3){1, 1, 1}));
         shadows->light[i] = all ? 1.0f : 0.0f;
         lit += all;
     }
@@ -295,12 +284,8 @@ int BATCH_NAME(reflect)(const struct koksma__surfaces *s, const struct koksma__l
 INLINE void keep(koksma__directions *restrict to, int i, int mine, koksma__v3 w, koksma__v3 weight, float pdf,
                  int kept)
 {
-    to->w[0][i] = mine ? w.x : to->w[0][i];
-    to->w[1][i] = mine ? w.y : to->w[1][i];
-    to->w[2][i] = mine ? w.z : to->w[2][i];
-    to->weight[0][i] = mine ? weight.x : to->weight[0][i];
-    to->weight[1][i] = mine ? weight.y : to->weight[1][i];
-    to->weight[2][i] = mine ? weight.z : to->weight[2][i];
+    koksma__put(to->w, i, mine, w);
+    koksma__put(to->weight, i, mine, weight);
     to->pdf[i] = mine ? pdf : to->pdf[i];
     to->kept[i] = mine ? kept : to->kept[i];
 }
@@ -311,7 +296,7 @@ static void lambert_directions(const koksma__surfaces *restrict s, const koksma_
     const koksma__hits *restrict h = s->hits;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const koksma__v3 normal = NORMAL(h, i), w = koksma__v3_cosine_direction(normal, u[0][i], u[1][i]);
+        const koksma__v3 normal = AT(h->n, i), w = koksma__v3_cosine_direction(normal, u[0][i], u[1][i]);
         const float pdf = koksma__lambert_pdf(koksma__v3_dot(normal, w));
         keep(to, i, s->form[i] == KOKSMA__FORM_LAMBERT, w, AT(s->albedo, i), pdf, pdf > 0);
     }
@@ -325,18 +310,15 @@ static void lobe_directions(const koksma__surfaces *restrict s, unsigned lobes, 
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
         const float part = shares.fixed + shares.shared * s->derived[i], exponent = s->parameters[3][i];
-        const koksma__v3 normal = NORMAL(h, i), out = AT(s->out, i);
+        const koksma__v3 normal = AT(h->n, i), out = AT(s->out, i);
         const koksma__v3 lambert_w = koksma__v3_cosine_direction(normal, u[0][i], u[1][i]);
         const koksma__v3 lobe_w = koksma__lobe_direction(normal, out, exponent, u[0][i], u[1][i]);
         const int first = u[2][i] < part;
-        const koksma__v3 w = {first ? lambert_w.x : lobe_w.x, first ? lambert_w.y : lobe_w.y,
-                              first ? lambert_w.z : lobe_w.z};
+        const koksma__v3 w = koksma__either(first, lambert_w, lobe_w);
         const float above = koksma__v3_dot(normal, w), lambert = shares.diffuse * koksma__lambert_pdf(above);
         const float lobe = shares.glossy * koksma__lobe_pdf(normal, out, exponent, w);
         const float pdf = part * lambert + (1 - part) * lobe, scale = 1 / (pdf > 0 ? pdf : 1);
-        const koksma__v3 weight = {scale * (s->albedo[0][i] * lambert + s->parameters[0][i] * lobe),
-                                   scale * (s->albedo[1][i] * lambert + s->parameters[1][i] * lobe),
-                                   scale * (s->albedo[2][i] * lambert + s->parameters[2][i] * lobe)};
+        const koksma__v3 weight = koksma__v3_scale(both_lobes(s, i, lambert, lobe), scale);
         keep(to, i, s->form[i] == KOKSMA__FORM_LOBES, w, weight, pdf, (pdf > 0) & (above > 0));
     }
 }
@@ -347,12 +329,10 @@ static void facet_directions(const koksma__surfaces *restrict s, const koksma__l
     const koksma__hits *restrict h = s->hits;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const koksma__facets facets = koksma__facets_of(NORMAL(h, i), AT(s->out, i), s->parameters[3][i]);
+        const koksma__facets facets = koksma__facets_of(AT(h->n, i), AT(s->out, i), s->parameters[3][i]);
         const koksma__v3 w = koksma__facet_direction(&facets, u[0][i], u[1][i]);
         const koksma__facet_terms t = koksma__facet_terms_of(&facets, w);
-        const koksma__v3 weight = {t.ratio * koksma__schlick(s->parameters[0][i], t.at_facet),
-                                   t.ratio * koksma__schlick(s->parameters[1][i], t.at_facet),
-                                   t.ratio * koksma__schlick(s->parameters[2][i], t.at_facet)};
+        const koksma__v3 weight = koksma__v3_scale(koksma__schlick3(AT(s->parameters, i), t.at_facet), t.ratio);
         keep(to, i, s->form[i] == KOKSMA__FORM_FACETS, w, weight, t.pdf, t.pdf > 0);
     }
 }
@@ -368,8 +348,7 @@ static void coated_directions(const koksma__surfaces *restrict s, unsigned lobes
         const koksma__v3 diffuse = koksma__v3_cosine_direction(c.n, u[0][i], u[1][i]);
         const koksma__v3 glossy = koksma__facet_direction(&facets, u[0][i], u[1][i]);
         const int first = u[2][i] < c.share;
-        const koksma__v3 w = {first ? diffuse.x : glossy.x, first ? diffuse.y : glossy.y,
-                              first ? diffuse.z : glossy.z};
+        const koksma__v3 w = koksma__either(first, diffuse, glossy);
         koksma__v3 value;
         const float pdf = koksma__coat_value(&c, w, &value), by = pdf > 0 ? pdf : 1;
         keep(to, i, s->form[i] == KOKSMA__FORM_COATED, w, (koksma__v3){value.x / by, value.y / by, value.z / by}, pdf,

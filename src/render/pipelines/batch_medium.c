@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The medium for blocks of rays: medium.c has the formulas, for single rays, and these loops do the same operations, so
- * that their bits are equal. Rays through a medium in a box, which may be endless, are cut in lanes, those through other
- * shapes one by one.
+ * The medium for blocks of rays, by the formulas of medium.c. Rays through a medium in a box, which may be endless, are cut
+ * in lanes, those through other shapes one by one.
  */
 #include <math.h>
 
@@ -19,7 +18,7 @@ typedef struct stretches {
 } stretches;
 
 /* Sets first and last; last has the ends of the rays before. */
-static void cut(const koksma__medium *m, const float *const o[3], const float *const d[3], int n,
+static void cut(const koksma__medium *m, const koksma__lanes *restrict o, const koksma__lanes *restrict d, int n,
                 stretches *restrict to)
 {
     LANES_APART
@@ -41,8 +40,8 @@ static void cut(const koksma__medium *m, const float *const o[3], const float *c
     }
 }
 
-static void stretches_of(const koksma__medium *m, const float *const o[3], const float *const d[3], int n,
-                         stretches *restrict to)
+static void stretches_of(const koksma__medium *m, const koksma__lanes *restrict o, const koksma__lanes *restrict d,
+                         int n, stretches *restrict to)
 {
     if (m->in_shape) {
         for (int i = 0; i < n; i++) {
@@ -54,11 +53,10 @@ static void stretches_of(const koksma__medium *m, const float *const o[3], const
         }
         return;
     }
-    const float *restrict x = d[0], *restrict y = d[1], *restrict z = d[2];
     cut(m, o, d, n, to);
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const double dx = (double)x[i], dy = (double)y[i], dz = (double)z[i];
+        const double dx = (double)d[0][i], dy = (double)d[1][i], dz = (double)d[2][i];
         const double speed = sqrt(dx * dx + dy * dy + dz * dz), first = to->first[i], last = to->last[i];
         const double length = (last - first) * speed, finite = length < DBL_MAX ? length : DBL_MAX;
         to->speed[i] = speed;
@@ -145,12 +143,8 @@ static void enter(const koksma__rays *restrict r, const int32_t *restrict scatte
     for (int i = 0; i < STEP(n); i++) {
         const int in = scatters[i];
         h->t[i] = in ? t[i] : h->t[i];
-        h->px[i] = in ? r->ox[i] + t[i] * r->dx[i] : h->px[i];
-        h->py[i] = in ? r->oy[i] + t[i] * r->dy[i] : h->py[i];
-        h->pz[i] = in ? r->oz[i] + t[i] * r->dz[i] : h->pz[i];
-        h->nx[i] = in ? 0 : h->nx[i];
-        h->ny[i] = in ? 0 : h->ny[i];
-        h->nz[i] = in ? 0 : h->nz[i];
+        koksma__put(h->p, i, in, koksma__v3_add(AT(r->o, i), koksma__v3_scale(AT(r->d, i), t[i])));
+        koksma__put(h->n, i, in, (koksma__v3){0, 0, 0});
         h->u[i] = in ? 0 : h->u[i];
         h->v[i] = in ? 0 : h->v[i];
         h->back[i] = in ? 1 : h->back[i]; /* counts as a back, because the back of a surface emits no light */
@@ -162,8 +156,6 @@ static void enter(const koksma__rays *restrict r, const int32_t *restrict scatte
 void BATCH_NAME(travel)(const struct koksma__medium *m, const float *restrict us, int32_t material, int n,
                         struct koksma__paths *paths, koksma__hits *h)
 {
-    const float *const o[3] = {paths->rays.ox, paths->rays.oy, paths->rays.oz};
-    const float *const d[3] = {paths->rays.dx, paths->rays.dy, paths->rays.dz};
     const bool dark = m->scattering[0] == 0 && m->scattering[1] == 0 && m->scattering[2] == 0;
     const bool grey = koksma__medium_is_grey(m);
     const double coefficient = koksma__medium_extinction(m, 0);
@@ -178,7 +170,7 @@ void BATCH_NAME(travel)(const struct koksma__medium *m, const float *restrict us
         u[i] = (double)us[i];
         by[i] = coefficient;
     }
-    stretches_of(m, o, d, n, &s);
+    stretches_of(m, paths->rays.o, paths->rays.d, n, &s);
     if (!dark && !grey) {
         choose(m, paths, n, &c, u, by);
     }
@@ -212,13 +204,12 @@ void BATCH_NAME(travel)(const struct koksma__medium *m, const float *restrict us
 void BATCH_NAME(attenuate)(const struct koksma__medium *m, const koksma__hits *h, const koksma__shadows *shadows,
                            int n, float (*restrict light)[KOKSMA__BLOCK])
 {
-    const float *const o[3] = {h->px, h->py, h->pz}, *const d[3] = {shadows->dx, shadows->dy, shadows->dz};
     stretches s;
     _Alignas(64) numbers passed;
     for (int i = 0; i < STEP(n); i++) {
         s.last[i] = 1;
     }
-    stretches_of(m, o, d, n, &s);
+    stretches_of(m, h->p, shadows->d, n, &s);
     for (int k = 0; k < 3; k++) {
         if (!k || koksma__medium_extinction(m, k) != koksma__medium_extinction(m, k - 1)) {
             pass(koksma__medium_extinction(m, k), s.length, n, passed);

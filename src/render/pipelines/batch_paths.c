@@ -5,7 +5,6 @@
 
 #include "render/pipelines/batch_kernel.h"
 #include "render/pipelines/vertices.h"
-#include "render/vector3.h"
 
 void BATCH_NAME(pairs)(const float *restrict pairs, const uint32_t *restrict sample, int n, float *restrict x,
                        float *restrict y)
@@ -61,10 +60,8 @@ void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__
     const koksma__lens l = *lens;
     const float *restrict lens_x = x ? x : none, *restrict lens_y = x ? y : none, *restrict times = u ? u : none;
     const float inverse = x ? 1 / l.focus : 0;
-    float *const o[3] = {to->rays.ox, to->rays.oy, to->rays.oz}, *const d[3] = {to->rays.dx, to->rays.dy,
-                                                                                to->rays.dz};
     for (int k = 0; k < 3; k++) {
-        float *restrict ok = o[k], *restrict dk = d[k];
+        float *restrict ok = to->rays.o[k], *restrict dk = to->rays.d[k];
         LANES_APART
         for (int i = 0; i < STEP(n); i++) {
             const float shift = l.radius * (lens_x[i] * l.right[k] + lens_y[i] * l.down[k]);
@@ -86,13 +83,11 @@ void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__
 void BATCH_NAME(background)(const float *background, struct koksma__vertices *restrict v)
 {
     const koksma__paths *restrict p = v->paths;
-    const float r = background[0], g = background[1], b = background[2];
+    const koksma__v3 light = koksma__v3_of(background), none = {0, 0, 0};
     LANES_APART
     for (int i = 0; i < STEP(v->whole); i++) {
-        const int missed = v->hits.primitive[i] < 0;
-        v->light[0][i] = missed ? p->beta[0][i] * r : 0;
-        v->light[1][i] = missed ? p->beta[1][i] * g : 0;
-        v->light[2][i] = missed ? p->beta[2][i] * b : 0;
+        const koksma__v3 seen = koksma__v3_times(AT(p->beta, i), light);
+        koksma__put(v->light, i, 1, koksma__either(v->hits.primitive[i] < 0, seen, none));
     }
 }
 
@@ -102,17 +97,14 @@ void BATCH_NAME(collect)(const koksma__shadows *restrict shadows, const float (*
     const koksma__paths *restrict p = v->paths;
     LANES_APART
     for (int i = 0; i < STEP(v->whole); i++) {
-        const int lit = shadows->light[i] > 0;
-        v->light[0][i] += lit ? p->beta[0][i] * reflected[0][i] : 0;
-        v->light[1][i] += lit ? p->beta[1][i] * reflected[1][i] : 0;
-        v->light[2][i] += lit ? p->beta[2][i] * reflected[2][i] : 0;
+        const koksma__v3 light = koksma__v3_times(AT(p->beta, i), AT(reflected, i));
+        koksma__put(v->light, i, shadows->light[i] > 0, koksma__v3_add(AT(v->light, i), light));
     }
 }
 
-INLINE float largest(float x, float y, float z)
+INLINE float largest(koksma__v3 v)
 {
-    const float m = x > y ? x : y;
-    return m > z ? m : z;
+    return koksma__larger(koksma__larger(v.x, v.y), v.z);
 }
 
 int BATCH_NAME(weigh)(const koksma__paths *restrict p, int n, struct koksma__directions *restrict to)
@@ -120,11 +112,9 @@ int BATCH_NAME(weigh)(const koksma__paths *restrict p, int n, struct koksma__dir
     int dim = 0;
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const float x = p->beta[0][i] * to->weight[0][i], y = p->beta[1][i] * to->weight[1][i];
-        const float z = p->beta[2][i] * to->weight[2][i], most = largest(x, y, z);
-        to->weight[0][i] = x;
-        to->weight[1][i] = y;
-        to->weight[2][i] = z;
+        const koksma__v3 weight = koksma__v3_times(AT(p->beta, i), AT(to->weight, i));
+        const float most = largest(weight);
+        koksma__put(to->weight, i, 1, weight);
         to->kept[i] = (to->kept[i] != 0) & (most > 0);
         dim += to->kept[i] & (most < 1);
     }
@@ -135,13 +125,11 @@ void BATCH_NAME(roulette)(const float *restrict u, int n, struct koksma__directi
 {
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        const float most = largest(to->weight[0][i], to->weight[1][i], to->weight[2][i]);
+        const float most = largest(AT(to->weight, i));
         const int plays = (to->kept[i] != 0) & (most < 1);
         const float scale = 1 / (plays ? most : 1);
         to->kept[i] = (to->kept[i] != 0) & (!plays | (u[i] < most));
-        to->weight[0][i] *= scale;
-        to->weight[1][i] *= scale;
-        to->weight[2][i] *= scale;
+        koksma__put(to->weight, i, 1, koksma__v3_scale(AT(to->weight, i), scale));
     }
 }
 
@@ -167,25 +155,19 @@ int BATCH_NAME(close_up)(const struct koksma__vertices *restrict v, const struct
     memcpy(kept, d->kept, sizeof kept);
     memset(kept + v->n, 0, (size_t)(v->whole - v->n) * sizeof *kept);
     koksma__batch_pick(kept, v->whole, &p);
-    move(h->px, &p, at, to->rays.ox);
-    move(h->py, &p, at, to->rays.oy);
-    move(h->pz, &p, at, to->rays.oz);
     for (int k = 0; k < 3; k++) {
+        move(h->p[k], &p, at, to->rays.o[k]);
+        move(d->w[k], &p, at, to->rays.d[k]);
         move(d->weight[k], &p, at, to->beta[k]);
     }
-    move(d->w[0], &p, at, to->rays.dx);
-    move(d->w[1], &p, at, to->rays.dy);
-    move(d->w[2], &p, at, to->rays.dz);
     move(d->pdf, &p, at, to->pdf);
     move(h->primitive, &p, at, to->from);
     move(v->paths->sample, &p, at, to->sample);
     if (v->moves) {
         move(v->paths->rays.time, &p, at, to->rays.time);
     }
-    if (v->chooses) {
-        move(h->nx, &p, at, to->n[0]);
-        move(h->ny, &p, at, to->n[1]);
-        move(h->nz, &p, at, to->n[2]);
+    for (int k = 0; v->chooses && k < 3; k++) {
+        move(h->n[k], &p, at, to->n[k]);
     }
     return p.n;
 }

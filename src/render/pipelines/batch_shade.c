@@ -13,14 +13,11 @@
 void BATCH_NAME(camera)(const koksma__batch_camera *camera, const float *xy, int n, koksma__rays *rays)
 {
     const koksma__batch_camera c = *camera;
-    for (int i = 0; i < STEP(n); i++) {
-        const float x = xy[2 * i], y = xy[2 * i + 1];
-        rays->ox[i] = c.eye[0];
-        rays->oy[i] = c.eye[1];
-        rays->oz[i] = c.eye[2];
-        rays->dx[i] = c.base[0] + x * c.step_x[0] + y * c.step_y[0];
-        rays->dy[i] = c.base[1] + x * c.step_x[1] + y * c.step_y[1];
-        rays->dz[i] = c.base[2] + x * c.step_x[2] + y * c.step_y[2];
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < STEP(n); i++) {
+            rays->o[k][i] = c.eye[k];
+            rays->d[k][i] = c.base[k] + xy[2 * i] * c.step_x[k] + xy[2 * i + 1] * c.step_y[k];
+        }
     }
 }
 
@@ -66,24 +63,21 @@ void BATCH_NAME(albedo)(const koksma__batch_material *materials, const koksma__h
 INLINE int send(const koksma__batch_light *light, const koksma__hits *restrict h, const float *restrict xy, int n,
                 bool rays, koksma__shadows *restrict s, float *restrict sum)
 {
-    const koksma__batch_light l = *light;
+    const koksma__v3 corner = koksma__v3_of(light->corner), normal = koksma__v3_of(light->normal);
+    const koksma__v3 edge_x = koksma__v3_of(light->edge_x), edge_y = koksma__v3_of(light->edge_y);
+    const float power = light->power;
     int lit = 0;
     for (int i = 0; i < STEP(n); i++) {
-        const float x = xy[2 * i], y = xy[2 * i + 1];
-        const float dx = l.corner[0] + x * l.edge_x[0] + y * l.edge_y[0] - h->px[i];
-        const float dy = l.corner[1] + x * l.edge_x[1] + y * l.edge_y[1] - h->py[i];
-        const float dz = l.corner[2] + x * l.edge_x[2] + y * l.edge_y[2] - h->pz[i];
-        const float square = dx * dx + dy * dy + dz * dz;
-        const float at_hit = h->nx[i] * dx + h->ny[i] * dy + h->nz[i] * dz;
-        const float at_light = -(l.normal[0] * dx + l.normal[1] * dy + l.normal[2] * dz);
+        const koksma__v3 on = koksma__v3_add(koksma__v3_add(corner, koksma__v3_scale(edge_x, xy[2 * i])),
+                                             koksma__v3_scale(edge_y, xy[2 * i + 1]));
+        const koksma__v3 d = koksma__v3_subtract(on, AT(h->p, i));
+        const float square = koksma__v3_dot(d, d), at_hit = koksma__v3_dot(AT(h->n, i), d);
+        const float at_light = -koksma__v3_dot(normal, d), value = power * at_hit * at_light / (square * square);
         const int facing = (at_hit > 0) & (at_light > 0);
-        const float value = l.power * at_hit * at_light / (square * square);
         s->light[i] = facing ? value : 0;
         lit += facing;
         if (rays) {
-            s->dx[i] = dx;
-            s->dy[i] = dy;
-            s->dz[i] = dz;
+            koksma__put(s->d, i, 1, d);
         } else {
             sum[i] += facing ? value : 0;
         }

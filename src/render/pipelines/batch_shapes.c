@@ -10,7 +10,6 @@
 
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
-#include "render/vector3.h"
 
 /* Indexed by koksma__batch_shape.kind. */
 static const koksma__shape_type *const types[] = {
@@ -24,29 +23,15 @@ static const koksma__shape_type *const types[] = {
 INLINE void finish_flat(const koksma__batch_shape *s, const koksma__rays *restrict r, int n, koksma__hits *restrict h,
                         bool all)
 {
-    const int32_t id = s->id;
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
-    const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
-    const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
-    const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
-    const int32_t material = s->material;
+    const koksma__v3 c = koksma__v3_of(s->centre), normal = koksma__v3_of(s->normal);
+    const koksma__v3 u = koksma__v3_of(s->axis_u), v = koksma__v3_of(s->axis_v);
+    const int32_t id = s->id, material = s->material;
     for (int i = 0; i < STEP(n); i++) {
         const int hit = all | (h->primitive[i] == id);
-        const float t = h->t[i], dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float px = r->ox[i] + t * dx, py = r->oy[i] + t * dy, pz = r->oz[i] + t * dz;
-        const float qx = px - cx, qy = py - cy, qz = pz - cz;
-        const float side = nx * dx + ny * dy + nz * dz > 0 ? -1.0f : 1.0f;
-        const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        h->px[i] = hit ? px : h->px[i];
-        h->py[i] = hit ? py : h->py[i];
-        h->pz[i] = hit ? pz : h->pz[i];
-        h->nx[i] = hit ? side * nx : h->nx[i];
-        h->ny[i] = hit ? side * ny : h->ny[i];
-        h->nz[i] = hit ? side * nz : h->nz[i];
-        h->u[i] = hit ? u : h->u[i];
-        h->v[i] = hit ? v : h->v[i];
-        h->back[i] = hit ? side < 0 : h->back[i];
-        h->material[i] = hit ? material : h->material[i];
+        const koksma__v3 d = AT(r->d, i), p = koksma__v3_add(AT(r->o, i), koksma__v3_scale(d, h->t[i]));
+        const koksma__v3 q = koksma__v3_subtract(p, c);
+        const float side = koksma__v3_dot(normal, d) > 0 ? -1.0f : 1.0f;
+        koksma__put_hit(h, i, hit, p, normal, side, koksma__v3_dot(q, u), koksma__v3_dot(q, v), material);
     }
 }
 
@@ -63,76 +48,57 @@ static void finish_shape(const koksma__batch_shape *s, const koksma__rays *rays,
 
 /* ---- Shapes that turn ----------------------------------------------------------------------------------------- */
 
-/* Rotates the vector (x, y, z) about a unit axis by the angle with this sine and cosine (Rodrigues' formula). */
-INLINE void rotate(const float axis[3], float sine, float cosine, float *x, float *y, float *z)
+/* Rotates the vector v about a unit axis by the angle with this sine and cosine (Rodrigues' formula). */
+INLINE koksma__v3 rotate(koksma__v3 axis, float sine, float cosine, koksma__v3 v)
 {
-    const float ax = axis[0], ay = axis[1], az = axis[2], vx = *x, vy = *y, vz = *z;
-    const float along = (1 - cosine) * (ax * vx + ay * vy + az * vz);
-    *x = cosine * vx + sine * (ay * vz - az * vy) + along * ax;
-    *y = cosine * vy + sine * (az * vx - ax * vz) + along * ay;
-    *z = cosine * vz + sine * (ax * vy - ay * vx) + along * az;
+    const koksma__v3 across = koksma__v3_scale(koksma__v3_cross(axis, v), sine);
+    return koksma__v3_add(koksma__v3_add(koksma__v3_scale(v, cosine), across),
+                          koksma__v3_scale(axis, (1 - cosine) * koksma__v3_dot(axis, v)));
 }
 
 /* Transforms lines o + t d, each at its time, to the frame in which the shape rests; t does not change. */
-INLINE void lines_at_rest(const koksma__batch_shape *shape, const float *restrict time, int n,
-                          const float *const *restrict from, float *const *restrict to)
+static void lines_at_rest(const koksma__batch_shape *s, const float *restrict time, int n,
+                          const koksma__lanes *restrict o, const koksma__lanes *restrict d,
+                          koksma__lanes *restrict to_o, koksma__lanes *restrict to_d)
 {
-    const koksma__batch_shape copy = *shape, *s = &copy;
-    const float *restrict ox = from[0], *restrict oy = from[1], *restrict oz = from[2];
-    const float *restrict dx = from[3], *restrict dy = from[4], *restrict dz = from[5];
-    float *restrict tx = to[0], *restrict ty = to[1], *restrict tz = to[2];
-    float *restrict ux = to[3], *restrict uy = to[4], *restrict uz = to[5];
+    const koksma__v3 axis = koksma__v3_of(s->axis), pivot = koksma__v3_of(s->pivot),
+                     motion = koksma__v3_of(s->motion);
+    const float angle = s->angle, growth = s->growth;
     for (int i = 0; i < STEP(n); i++) {
-        const float at = time[i], shrink = 1 / (1 + at * s->growth);
-        float ex = ox[i] - s->pivot[0] - at * s->motion[0], ey = oy[i] - s->pivot[1] - at * s->motion[1],
-              ez = oz[i] - s->pivot[2] - at * s->motion[2], fx = dx[i], fy = dy[i], fz = dz[i], sine, cosine;
-        koksma__sine_cosine_turns(-at * s->angle, &sine, &cosine);
-        rotate(s->axis, sine, cosine, &ex, &ey, &ez);
-        rotate(s->axis, sine, cosine, &fx, &fy, &fz);
-        tx[i] = shrink * ex + s->pivot[0];
-        ty[i] = shrink * ey + s->pivot[1];
-        tz[i] = shrink * ez + s->pivot[2];
-        ux[i] = shrink * fx;
-        uy[i] = shrink * fy;
-        uz[i] = shrink * fz;
+        const float at = time[i], shrink = 1 / (1 + at * growth);
+        const koksma__v3 e = koksma__v3_subtract(koksma__v3_subtract(AT(o, i), pivot), koksma__v3_scale(motion, at));
+        float sine, cosine;
+        koksma__sine_cosine_turns(-at * angle, &sine, &cosine);
+        koksma__put(to_o, i, 1, koksma__v3_add(koksma__v3_scale(rotate(axis, sine, cosine, e), shrink), pivot));
+        koksma__put(to_d, i, 1, koksma__v3_scale(rotate(axis, sine, cosine, AT(d, i)), shrink));
     }
-}
-
-static void rays_at_rest(const koksma__batch_shape *s, const koksma__rays *r, int n, koksma__rays *out)
-{
-    const float *const from[6] = {r->ox, r->oy, r->oz, r->dx, r->dy, r->dz};
-    float *const to[6] = {out->ox, out->oy, out->oz, out->dx, out->dy, out->dz};
-    lines_at_rest(s, r->time, n, from, to);
 }
 
 static void hit_turned(const koksma__batch_shape *s, const koksma__rays *r, const int32_t *from, int n,
                        koksma__hits *h)
 {
     koksma__rays rest;
-    rays_at_rest(s, r, n, &rest);
+    lines_at_rest(s, r->time, n, r->o, r->d, rest.o, rest.d);
     types[s->kind]->hit(s, &rest, from, n, h);
 }
 
 /* Completes the hits in the frame in which the shape rests, then transforms the positions and normals of the lanes
    that hit the shape back to the scene. */
-static void finish_turned(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
+static void finish_turned(const koksma__batch_shape *s, const koksma__rays *restrict r, int n,
                           koksma__hits *restrict h)
 {
+    const koksma__v3 axis = koksma__v3_of(s->axis);
+    const float angle = s->angle;
+    const int32_t id = s->id;
     koksma__rays rest;
-    const koksma__batch_shape copy = *shape, *s = &copy;
-    rays_at_rest(s, r, n, &rest);
+    lines_at_rest(s, r->time, n, r->o, r->d, rest.o, rest.d);
     finish_shape(s, &rest, n, h, false);
     for (int i = 0; i < STEP(n); i++) {
-        const int hit = h->primitive[i] == s->id;
-        float nx = h->nx[i], ny = h->ny[i], nz = h->nz[i], sine, cosine;
-        koksma__sine_cosine_turns(r->time[i] * s->angle, &sine, &cosine);
-        rotate(s->axis, sine, cosine, &nx, &ny, &nz);
-        h->px[i] = hit ? r->ox[i] + h->t[i] * r->dx[i] : h->px[i];
-        h->py[i] = hit ? r->oy[i] + h->t[i] * r->dy[i] : h->py[i];
-        h->pz[i] = hit ? r->oz[i] + h->t[i] * r->dz[i] : h->pz[i];
-        h->nx[i] = hit ? nx : h->nx[i];
-        h->ny[i] = hit ? ny : h->ny[i];
-        h->nz[i] = hit ? nz : h->nz[i];
+        const int hit = h->primitive[i] == id;
+        float sine, cosine;
+        koksma__sine_cosine_turns(r->time[i] * angle, &sine, &cosine);
+        koksma__put(h->p, i, hit, koksma__v3_add(AT(r->o, i), koksma__v3_scale(AT(r->d, i), h->t[i])));
+        koksma__put(h->n, i, hit, rotate(axis, sine, cosine, AT(h->n, i)));
     }
 }
 
@@ -141,9 +107,7 @@ static void shade_turned(const koksma__batch_shape *s, const koksma__hits *h, co
 {
     koksma__hits rest;
     koksma__shadows there;
-    const float *const from[6] = {h->px, h->py, h->pz, r->dx, r->dy, r->dz};
-    float *const to[6] = {rest.px, rest.py, rest.pz, there.dx, there.dy, there.dz};
-    lines_at_rest(s, h->time, n, from, to);
+    lines_at_rest(s, h->time, n, h->p, r->d, rest.p, there.d);
     memcpy(rest.primitive, h->primitive, sizeof rest.primitive);
     memcpy(there.light, r->light, sizeof there.light);
     types[s->kind]->shade(s, &rest, aimed, n, &there);
@@ -154,12 +118,22 @@ static void shade_turned(const koksma__batch_shape *s, const koksma__hits *h, co
 
 static void pull_rays(const koksma__rays *r, const koksma__picks *p, koksma__rays *to)
 {
-    koksma__batch_pull_whole(r->ox, p, to->ox);
-    koksma__batch_pull_whole(r->oy, p, to->oy);
-    koksma__batch_pull_whole(r->oz, p, to->oz);
-    koksma__batch_pull_whole(r->dx, p, to->dx);
-    koksma__batch_pull_whole(r->dy, p, to->dy);
-    koksma__batch_pull_whole(r->dz, p, to->dz);
+    koksma__batch_pull_three(r->o, p, to->o);
+    koksma__batch_pull_three(r->d, p, to->d);
+}
+
+/* Copies picked shadow rays, but for their times; `aimed` is room for their aims. */
+static void pull_shadows(const koksma__hits *h, const koksma__shadows *r, const koksma__picks *p, int32_t *aimed,
+                         koksma__hits *to_h, koksma__shadows *to)
+{
+    koksma__batch_pull_three(h->p, p, to_h->p);
+    koksma__batch_pull_whole(h->primitive, p, to_h->primitive);
+    koksma__batch_pull_three(r->d, p, to->d);
+    koksma__batch_pull_whole(r->light, p, to->light);
+    to->aimed = r->aimed ? aimed : NULL;
+    if (r->aimed) {
+        koksma__batch_pull_whole(r->aimed, p, aimed);
+    }
 }
 
 /* Keeps the closer of the hits of each lane; of two at the same t that of the first shape, whatever their order. */
@@ -177,13 +151,12 @@ INLINE void keep(const koksma__hits *restrict mine, const int32_t *restrict lane
 static void hit_bundles(const koksma__batch_shapes *shapes, const koksma__rays *r, const int32_t *from, int n,
                         koksma__hits *h)
 {
-    const float *const o[3] = {r->ox, r->oy, r->oz}, *const d[3] = {r->dx, r->dy, r->dz};
     KOKSMA__LANES(int32_t, starts);
     koksma__picks p;
     koksma__slabs s;
     koksma__rays some;
     koksma__hits mine;
-    koksma__slabs_of(o, d, shapes->size, n, &s);
+    koksma__slabs_of(r->o, r->d, shapes->size, n, &s);
     for (size_t b = 0; b < shapes->n_bundles; b++) {
         const koksma__batch_bundle *bundle = &shapes->bundles[b];
         koksma__near_bundle(bundle, &s, h->t, NULL, n, &p);
@@ -224,14 +197,12 @@ static void shade_shape(const koksma__batch_shape *s, const koksma__hits *h, con
 static void shade_bundles(const koksma__batch_shapes *shapes, const koksma__hits *h, const int32_t *nowhere, int n,
                           koksma__shadows *r)
 {
-    const float *const o[3] = {h->px, h->py, h->pz}, *const d[3] = {r->dx, r->dy, r->dz};
     KOKSMA__LANES(int32_t, aimed);
     koksma__picks p;
     koksma__slabs s;
     koksma__hits some;
     koksma__shadows mine;
-    mine.aimed = r->aimed ? aimed : NULL;
-    koksma__slabs_of(o, d, shapes->size, n, &s);
+    koksma__slabs_of(h->p, r->d, shapes->size, n, &s);
     for (size_t b = 0; b < shapes->n_bundles; b++) {
         const koksma__batch_bundle *bundle = &shapes->bundles[b];
         koksma__near_bundle(bundle, &s, NULL, r->light, n, &p);
@@ -240,17 +211,7 @@ static void shade_bundles(const koksma__batch_shapes *shapes, const koksma__hits
         }
         const bool all = p.n > STEP(n) / 2;
         if (!all) {
-            koksma__batch_pull_whole(h->px, &p, some.px);
-            koksma__batch_pull_whole(h->py, &p, some.py);
-            koksma__batch_pull_whole(h->pz, &p, some.pz);
-            koksma__batch_pull_whole(h->primitive, &p, some.primitive);
-            koksma__batch_pull_whole(r->dx, &p, mine.dx);
-            koksma__batch_pull_whole(r->dy, &p, mine.dy);
-            koksma__batch_pull_whole(r->dz, &p, mine.dz);
-            koksma__batch_pull_whole(r->light, &p, mine.light);
-        }
-        if (!all && r->aimed) {
-            koksma__batch_pull_whole(r->aimed, &p, aimed);
+            pull_shadows(h, r, &p, aimed, &some, &mine);
         }
         for (size_t k = bundle->first; k < bundle->end; k++) {
             shade_shape(&shapes->shapes[shapes->order[k]], all ? h : &some, nowhere,
@@ -269,8 +230,8 @@ static void clear(koksma__hits *hits, int n)
     for (int i = 0; i < STEP(n); i++) {
         hits->material[i] = -1;
         hits->back[i] = 0;
-        hits->px[i] = hits->py[i] = hits->pz[i] = 0;
-        hits->nx[i] = hits->ny[i] = hits->nz[i] = 0;
+        koksma__put(hits->p, i, 1, (koksma__v3){0, 0, 0});
+        koksma__put(hits->n, i, 1, (koksma__v3){0, 0, 0});
         hits->u[i] = hits->v[i] = 0;
     }
 }
@@ -284,12 +245,10 @@ static void finish_some(const koksma__batch_shape *s, const koksma__rays *rays, 
     pull_rays(rays, p, &some);
     koksma__batch_pull_whole(h->t, p, done.t);
     finish_shape(s, &some, koksma__batch_pulled(p), &done, true);
-    koksma__batch_push(done.px, p, h->px);
-    koksma__batch_push(done.py, p, h->py);
-    koksma__batch_push(done.pz, p, h->pz);
-    koksma__batch_push(done.nx, p, h->nx);
-    koksma__batch_push(done.ny, p, h->ny);
-    koksma__batch_push(done.nz, p, h->nz);
+    for (int k = 0; k < 3; k++) {
+        koksma__batch_push(done.p[k], p, h->p[k]);
+        koksma__batch_push(done.n[k], p, h->n[k]);
+    }
     koksma__batch_push(done.u, p, h->u);
     koksma__batch_push(done.v, p, h->v);
     koksma__batch_push(done.back, p, h->back);
@@ -417,19 +376,8 @@ void BATCH_NAME(occlude)(const koksma__batch_shapes *shapes, const koksma__hits 
     if (p.n > STEP(n) / 2) {
         shade_all(shapes, hits, n, shadows);
     } else if (p.n) {
-        koksma__batch_pull_whole(hits->px, &p, some.px);
-        koksma__batch_pull_whole(hits->py, &p, some.py);
-        koksma__batch_pull_whole(hits->pz, &p, some.pz);
+        pull_shadows(hits, shadows, &p, aimed, &some, &lit);
         koksma__batch_pull_whole(hits->time, &p, some.time);
-        koksma__batch_pull_whole(hits->primitive, &p, some.primitive);
-        koksma__batch_pull_whole(shadows->dx, &p, lit.dx);
-        koksma__batch_pull_whole(shadows->dy, &p, lit.dy);
-        koksma__batch_pull_whole(shadows->dz, &p, lit.dz);
-        koksma__batch_pull_whole(shadows->light, &p, lit.light);
-        lit.aimed = shadows->aimed ? aimed : NULL;
-        if (shadows->aimed) {
-            koksma__batch_pull_whole(shadows->aimed, &p, aimed);
-        }
         shade_all(shapes, &some, koksma__batch_pulled(&p), &lit);
         koksma__batch_push(lit.light, &p, shadows->light);
     }

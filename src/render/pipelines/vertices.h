@@ -8,8 +8,6 @@
 #include "render/materials/materials.h"
 #include "render/pipelines/batch.h"
 
-typedef float koksma__lanes[KOKSMA__BLOCK];
-
 enum { KOKSMA__UNLIT = -1 }; /* the form of a lane whose ray hit nothing or a light, in place of a material's form */
 
 /* The trait bits of a material: 1 << form, its lobes << KOKSMA__LOBES_AT, and the flags below. */
@@ -124,8 +122,8 @@ static inline koksma__surface koksma__surface_at(const koksma__surfaces *s, int 
 {
     const koksma__hits *h = s->hits;
     koksma__surface surface = {.material = &s->materials[h->material[i]],
-                               .p = {h->px[i], h->py[i], h->pz[i]},
-                               .n = {h->nx[i], h->ny[i], h->nz[i]},
+                               .p = {h->p[0][i], h->p[1][i], h->p[2][i]},
+                               .n = {h->n[0][i], h->n[1][i], h->n[2][i]},
                                .inside = h->back[i] != 0,
                                .primitive = h->primitive[i]};
     const koksma__bsdf *bsdf = surface.material->bsdf;

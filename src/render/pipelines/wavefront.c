@@ -70,9 +70,9 @@ static koksma__lens lens_of(const koksma__camera *camera)
 static void advance(koksma__rays *rays, float distance, int n)
 {
     for (int i = 0; distance > 0 && i < n; i++) {
-        rays->ox[i] += distance * rays->dx[i];
-        rays->oy[i] += distance * rays->dy[i];
-        rays->oz[i] += distance * rays->dz[i];
+        rays->o[0][i] += distance * rays->d[0][i];
+        rays->o[1][i] += distance * rays->d[1][i];
+        rays->o[2][i] += distance * rays->d[2][i];
     }
 }
 
@@ -119,16 +119,16 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
 
 static koksma__v3 direction_at(const koksma__paths *p, int i)
 {
-    return koksma__v3_unit((koksma__v3){p->rays.dx[i], p->rays.dy[i], p->rays.dz[i]});
+    return koksma__v3_unit((koksma__v3){p->rays.d[0][i], p->rays.d[1][i], p->rays.d[2][i]});
 }
 
 /* Takes lane i, whose ray from the camera hits a light that the camera does not see, to the light's other side; passed: how
    far it has come. */
 static void pass_light(koksma__paths *p, const koksma__hits *hits, int i, float *passed)
 {
-    p->rays.ox[i] += hits->t[i] * p->rays.dx[i];
-    p->rays.oy[i] += hits->t[i] * p->rays.dy[i];
-    p->rays.oz[i] += hits->t[i] * p->rays.dz[i];
+    p->rays.o[0][i] += hits->t[i] * p->rays.d[0][i];
+    p->rays.o[1][i] += hits->t[i] * p->rays.d[1][i];
+    p->rays.o[2][i] += hits->t[i] * p->rays.d[2][i];
     p->from[i] = hits->primitive[i];
     *passed += hits->t[i];
 }
@@ -182,7 +182,7 @@ static float met_weight(const koksma__frame *frame, const koksma__paths *p, int 
         /* 1 for a ray from the eye or a mirror, because light sampling cannot find that light */
         return p->pdf[i] < 0 ? 0 : 1;
     }
-    const float o[3] = {p->rays.ox[i], p->rays.oy[i], p->rays.oz[i]}, n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
+    const float o[3] = {p->rays.o[0][i], p->rays.o[1][i], p->rays.o[2][i]}, n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
     const float sampled = pdf * koksma__light_probability(frame, o, n, (int)light);
     switch (frame->flags->weight) {
     case KOKSMA__WEIGHT_BALANCE:
@@ -237,8 +237,8 @@ static void add_emission(const koksma__frame *frame, koksma__vertices *v, int i)
     const size_t light = (size_t)frame->geometry.light(&frame->geometry, hits->primitive[i]);
     const koksma__shading_light *l = &frame->lights.lights[light];
     if (!hits->back[i] || l->two_sided) {
-        const float o[3] = {rays->ox[i], rays->oy[i], rays->oz[i]}, n[3] = {hits->nx[i], hits->ny[i], hits->nz[i]};
-        const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]}, length = sqrtf(koksma__dot3(d, d));
+        const float o[3] = {rays->o[0][i], rays->o[1][i], rays->o[2][i]}, n[3] = {hits->n[0][i], hits->n[1][i], hits->n[2][i]};
+        const float d[3] = {rays->d[0][i], rays->d[1][i], rays->d[2][i]}, length = sqrtf(koksma__dot3(d, d));
         float w[3];
         koksma__v3_to(direction_at(v->paths, i), w);
         const float pdf = l->kind->pdf ? l->kind->pdf(l, o, w, hits->t[i] * length, n) : 0;
@@ -253,8 +253,8 @@ static void add_glow(const koksma__frame *frame, koksma__vertices *v, int i)
     const koksma__hits *hits = &v->hits;
     const koksma__rays *rays = &v->paths->rays;
     const int light = frame->geometry.light(&frame->geometry, hits->primitive[i]);
-    const float p[3] = {hits->px[i], hits->py[i], hits->pz[i]}, uv[2] = {hits->u[i], hits->v[i]};
-    const float d[3] = {rays->dx[i], rays->dy[i], rays->dz[i]};
+    const float p[3] = {hits->p[0][i], hits->p[1][i], hits->p[2][i]}, uv[2] = {hits->u[i], hits->v[i]};
+    const float d[3] = {rays->d[0][i], rays->d[1][i], rays->d[2][i]};
     koksma__triangle triangle;
     if (light < 0 || (hits->back[i] && !frame->lights.lights[light].two_sided) ||
         !frame->geometry.triangle(&frame->geometry, hits->primitive[i], p, rays->time[i], &triangle)) {
@@ -277,7 +277,7 @@ static void bend(const koksma__map *map, const koksma__triangle *triangle, koksm
     koksma__hits *h = &v->hits;
     const float side = h->back[i] ? -1.0f : 1.0f,
                 out[3] = {v->surfaces.out[0][i], v->surfaces.out[1][i], v->surfaces.out[2][i]};
-    const float n[3] = {side * h->nx[i], side * h->ny[i], side * h->nz[i]};
+    const float n[3] = {side * h->n[0][i], side * h->n[1][i], side * h->n[2][i]};
     const float along = koksma__dot3(triangle->along_u, n);
     float rgb[3], u[3], bent[3];
     for (int k = 0; k < 3; k++) {
@@ -297,9 +297,9 @@ static void bend(const koksma__map *map, const koksma__triangle *triangle, koksm
     const float square = koksma__dot3(bent, bent);
     if (square > 1e-12f && koksma__dot3(bent, out) > 0.01f * sqrtf(square)) {
         koksma__unit3(bent);
-        h->nx[i] = bent[0];
-        h->ny[i] = bent[1];
-        h->nz[i] = bent[2];
+        h->n[0][i] = bent[0];
+        h->n[1][i] = bent[1];
+        h->n[2][i] = bent[2];
     }
 }
 
@@ -311,7 +311,7 @@ static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
     const koksma__map *surface = &m->from->maps[KOKSMA__MAP_SURFACE], *normal = &m->from->maps[KOKSMA__MAP_NORMAL];
     const size_t shape = (size_t)h->primitive[i];
     const double *half = shape < frame->scene->n_shapes ? frame->scene->shapes[shape].half : NULL;
-    const float p[3] = {h->px[i], h->py[i], h->pz[i]};
+    const float p[3] = {h->p[0][i], h->p[1][i], h->p[2][i]};
     const float at[2] = {half ? 0.5f * (h->u[i] / (float)half[0] + 1) : h->u[i],
                          half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i]};
     const koksma__mapping whole = {.wrap = {KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP}};
@@ -352,7 +352,7 @@ static void note_first(const koksma__frame *frame, koksma__values *values, const
     const koksma__rays *r = &v->paths->rays;
     const size_t sample = v->paths->sample[i];
     const bool hit = h->primitive[i] >= 0;
-    const float n[3] = {h->nx[i], h->ny[i], h->nz[i]}, d[3] = {r->dx[i], r->dy[i], r->dz[i]};
+    const float n[3] = {h->n[0][i], h->n[1][i], h->n[2][i]}, d[3] = {r->d[0][i], r->d[1][i], r->d[2][i]};
     for (int k = 0; k < 3; k++) {
         values->albedo[3 * sample + (size_t)k] = v->surfaces.form[i] < 0 ? 0 : v->surfaces.albedo[k][i];
         values->normal[3 * sample + (size_t)k] = hit ? n[k] : 0;
@@ -472,12 +472,12 @@ static void add_ambient(const koksma__frame *frame, koksma__vertices *v)
 static void fill_lanes(koksma__paths *p, int n, int whole)
 {
     for (int i = n; i < whole; i++) {
-        p->rays.ox[i] = p->rays.ox[n - 1];
-        p->rays.oy[i] = p->rays.oy[n - 1];
-        p->rays.oz[i] = p->rays.oz[n - 1];
-        p->rays.dx[i] = p->rays.dx[n - 1];
-        p->rays.dy[i] = p->rays.dy[n - 1];
-        p->rays.dz[i] = p->rays.dz[n - 1];
+        p->rays.o[0][i] = p->rays.o[0][n - 1];
+        p->rays.o[1][i] = p->rays.o[1][n - 1];
+        p->rays.o[2][i] = p->rays.o[2][n - 1];
+        p->rays.d[0][i] = p->rays.d[0][n - 1];
+        p->rays.d[1][i] = p->rays.d[1][n - 1];
+        p->rays.d[2][i] = p->rays.d[2][n - 1];
         p->rays.time[i] = p->rays.time[n - 1];
         for (int k = 0; k < 3; k++) {
             p->beta[k][i] = p->beta[k][n - 1];

@@ -76,12 +76,12 @@ koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *p
     KOKSMA__TRY(koksma__wavefront_reserve(queue));
     koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
     const size_t i = queue->n++ % KOKSMA__BLOCK;
-    to->rays.ox[i] = path->o[0];
-    to->rays.oy[i] = path->o[1];
-    to->rays.oz[i] = path->o[2];
-    to->rays.dx[i] = path->d[0];
-    to->rays.dy[i] = path->d[1];
-    to->rays.dz[i] = path->d[2];
+    to->rays.o[0][i] = path->o[0];
+    to->rays.o[1][i] = path->o[1];
+    to->rays.o[2][i] = path->o[2];
+    to->rays.d[0][i] = path->d[0];
+    to->rays.d[1][i] = path->d[1];
+    to->rays.d[2][i] = path->d[2];
     to->rays.time[i] = path->time;
     for (int k = 0; k < 3; k++) {
         to->beta[k][i] = path->beta[k];

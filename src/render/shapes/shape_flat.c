@@ -21,23 +21,37 @@
 /* The bounds: 1 where (u, v) is on the shape, 0 elsewhere. */
 typedef int within(const koksma__batch_shape *s, float u, float v);
 
+/* The frame of a shape. */
+typedef struct plane {
+    koksma__v3 centre, normal, u, v;
+} plane;
+
+INLINE plane plane_of(const koksma__batch_shape *s)
+{
+    return (plane){koksma__v3_of(s->centre), koksma__v3_of(s->normal), koksma__v3_of(s->axis_u),
+                   koksma__v3_of(s->axis_v)};
+}
+
+/* Where the line e + t d, from the centre, meets the plane, and its coordinates there. */
+INLINE float meet(const plane *f, koksma__v3 e, koksma__v3 d, float *u, float *v)
+{
+    const float t = -koksma__v3_dot(f->normal, e) / koksma__v3_dot(f->normal, d);
+    const koksma__v3 q = koksma__v3_add(e, koksma__v3_scale(d, t));
+    *u = koksma__v3_dot(q, f->u);
+    *v = koksma__v3_dot(q, f->v);
+    return t;
+}
+
 INLINE void flat_hit(const koksma__batch_shape *shape, const koksma__rays *restrict r, const int32_t *restrict from,
                      int n, koksma__hits *restrict h, within *inside)
 {
     const koksma__batch_shape copy = *shape, *s = &copy;
+    const plane f = plane_of(s);
     const int32_t id = s->id;
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
-    const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
-    const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
-    const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
     for (int i = 0; i < STEP(n); i++) {
-        const float ex = r->ox[i] - cx, ey = r->oy[i] - cy, ez = r->oz[i] - cz;
-        const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
-        const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
-        const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
-        const int away = from[i] != id;
-        const int hit = away & (t > 0) & (t < h->t[i]) & inside(s, u, v);
+        float u, v;
+        const float t = meet(&f, koksma__v3_subtract(AT(r->o, i), f.centre), AT(r->d, i), &u, &v);
+        const int hit = (from[i] != id) & (t > 0) & (t < h->t[i]) & inside(s, u, v);
         h->t[i] = hit ? t : h->t[i];
         h->primitive[i] = hit ? id : h->primitive[i];
     }
@@ -48,32 +62,23 @@ INLINE int flat_only(const koksma__batch_shape *shape, const koksma__rays *restr
                      koksma__hits *restrict h, within *inside)
 {
     const koksma__batch_shape copy = *shape, *s = &copy;
+    const plane f = plane_of(s);
     const int32_t id = s->id, material = s->material;
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
-    const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
-    const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
-    const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
+    const koksma__v3 none = {0, 0, 0};
     int count = 0;
     for (int i = 0; i < STEP(n); i++) {
-        const float ox = r->ox[i], oy = r->oy[i], oz = r->oz[i], dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float ex = ox - cx, ey = oy - cy, ez = oz - cz, slope = nx * dx + ny * dy + nz * dz;
-        const float t = -(nx * ex + ny * ey + nz * ez) / slope;
-        const float tx = t * dx, ty = t * dy, tz = t * dz;
-        const float hx = ex + tx, hy = ey + ty, hz = ez + tz, px = ox + tx, py = oy + ty, pz = oz + tz;
-        const float u = hx * ux + hy * uy + hz * uz, v = hx * vx + hy * vy + hz * vz;
-        const int hit = (t > 0) & (t < INFINITY) & inside(s, u, v);
-        const float qx = px - cx, qy = py - cy, qz = pz - cz, side = slope > 0 ? -1.0f : 1.0f;
-        const float pu = qx * ux + qy * uy + qz * uz, pv = qx * vx + qy * vy + qz * vz;
+        const koksma__v3 o = AT(r->o, i), d = AT(r->d, i);
+        float u, v;
+        const float t = meet(&f, koksma__v3_subtract(o, f.centre), d, &u, &v);
+        const int hit = (t > 0) & (t < INFINITY) & inside(s, u, v), back = koksma__v3_dot(f.normal, d) > 0;
+        const koksma__v3 p = koksma__v3_add(o, koksma__v3_scale(d, t)), q = koksma__v3_subtract(p, f.centre);
+        const koksma__v3 normal = koksma__v3_scale(f.normal, back ? -1.0f : 1.0f);
         h->t[i] = hit ? t : INFINITY;
-        h->px[i] = hit ? px : 0;
-        h->py[i] = hit ? py : 0;
-        h->pz[i] = hit ? pz : 0;
-        h->nx[i] = hit ? side * nx : 0;
-        h->ny[i] = hit ? side * ny : 0;
-        h->nz[i] = hit ? side * nz : 0;
-        h->u[i] = hit ? pu : 0;
-        h->v[i] = hit ? pv : 0;
-        h->back[i] = hit & (slope > 0);
+        koksma__put(h->p, i, 1, koksma__either(hit, p, none));
+        koksma__put(h->n, i, 1, koksma__either(hit, normal, none));
+        h->u[i] = hit ? koksma__v3_dot(q, f.u) : 0;
+        h->v[i] = hit ? koksma__v3_dot(q, f.v) : 0;
+        h->back[i] = hit & back;
         h->primitive[i] = hit ? id : -1;
         h->material[i] = hit ? material : -1;
         count += hit;
@@ -87,17 +92,11 @@ INLINE void flat_shade(const koksma__batch_shape *shape, const koksma__hits *res
                        koksma__shadows *restrict r, within *inside)
 {
     const koksma__batch_shape copy = *shape, *s = &copy;
+    const plane f = plane_of(s);
     const int32_t id = s->id;
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
-    const float nx = s->normal[0], ny = s->normal[1], nz = s->normal[2];
-    const float ux = s->axis_u[0], uy = s->axis_u[1], uz = s->axis_u[2];
-    const float vx = s->axis_v[0], vy = s->axis_v[1], vz = s->axis_v[2];
     for (int i = 0; i < STEP(n); i++) {
-        const float ex = h->px[i] - cx, ey = h->py[i] - cy, ez = h->pz[i] - cz;
-        const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float t = -(nx * ex + ny * ey + nz * ez) / (nx * dx + ny * dy + nz * dz);
-        const float qx = ex + t * dx, qy = ey + t * dy, qz = ez + t * dz;
-        const float u = qx * ux + qy * uy + qz * uz, v = qx * vx + qy * vy + qz * vz;
+        float u, v;
+        const float t = meet(&f, koksma__v3_subtract(AT(h->p, i), f.centre), AT(r->d, i), &u, &v);
         const int other = (h->primitive[i] != id) & (aimed[i] != id);
         const int hit = other & (t > 0) & (t < KOKSMA__SHADOW_END) & inside(s, u, v);
         r->light[i] *= hit ? 0.0f : 1.0f;

@@ -10,26 +10,26 @@
 #include "render/pipelines/batch_kernel.h"
 #include "render/shapes/shapes.h"
 
-/* Coordinate k of the centre at this time. */
-#define AT(k, c, time) (moves ? c + (time)*s->motion[k] : c)
+/* The vector from the centre at this time to p. */
+INLINE koksma__v3 from_centre(const koksma__batch_shape *s, koksma__v3 p, float time, bool moves)
+{
+    const koksma__v3 c = koksma__v3_of(s->centre), way = koksma__v3_scale(koksma__v3_of(s->motion), time);
+    return koksma__v3_subtract(p, moves ? koksma__v3_add(c, way) : c);
+}
 
 INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *restrict r, const int32_t *restrict from,
                        int n, koksma__hits *restrict h, bool moves)
 {
     const koksma__batch_shape copy = *shape, *s = &copy;
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
+    const float radius2 = s->radius2;
     const int32_t id = s->id;
     for (int i = 0; i < STEP(n); i++) {
-        const float ex = r->ox[i] - AT(0, cx, r->time[i]), ey = r->oy[i] - AT(1, cy, r->time[i]),
-                    ez = r->oz[i] - AT(2, cz, r->time[i]);
-        const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
-        const float inverse = 1 / a, middle = -b * inverse;
+        const koksma__v3 e = from_centre(s, AT(r->o, i), moves ? r->time[i] : 0, moves), d = AT(r->d, i);
+        const float a = koksma__v3_dot(d, d), inverse = 1 / a, middle = -koksma__v3_dot(e, d) * inverse;
         /* the vector from the centre to the line's nearest point is used, which avoids cancellation of large
            squares */
-        const float qx = ex + middle * dx, qy = ey + middle * dy, qz = ez + middle * dz;
-        const float rest = radius2 - (qx * qx + qy * qy + qz * qz);
-        const float reach = sqrtf((rest > 0 ? rest : 0) * inverse);
+        const koksma__v3 q = koksma__v3_add(e, koksma__v3_scale(d, middle));
+        const float rest = radius2 - koksma__v3_dot(q, q), reach = sqrtf((rest > 0 ? rest : 0) * inverse);
         const float near = middle - reach, far = middle + reach;
         const int away = from[i] != id;
         /* a ray that starts on the sphere has its roots at exactly 0 and 2 * middle */
@@ -41,29 +41,17 @@ INLINE void hit_sphere(const koksma__batch_shape *shape, const koksma__rays *res
 }
 
 /* Sets position and normal of the lanes that hit the sphere. all: whether every lane hits it. */
-INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *restrict r, int n,
+INLINE void finish_sphere(const koksma__batch_shape *shape, const koksma__rays *restrict r, int n,
                           koksma__hits *restrict h, bool all, bool moves)
 {
-    const int32_t id = s->id;
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], scale = s->inverse_radius;
-    const int32_t material = s->material;
+    const koksma__batch_shape copy = *shape, *s = &copy;
+    const int32_t id = s->id, material = s->material;
+    const float scale = s->inverse_radius;
     for (int i = 0; i < STEP(n); i++) {
         const int hit = all | (h->primitive[i] == id);
-        const float t = h->t[i], dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float px = r->ox[i] + t * dx, py = r->oy[i] + t * dy, pz = r->oz[i] + t * dz;
-        const float qx = (px - AT(0, cx, r->time[i])) * scale, qy = (py - AT(1, cy, r->time[i])) * scale,
-                    qz = (pz - AT(2, cz, r->time[i])) * scale;
-        const float side = qx * dx + qy * dy + qz * dz > 0 ? -1.0f : 1.0f;
-        h->px[i] = hit ? px : h->px[i];
-        h->py[i] = hit ? py : h->py[i];
-        h->pz[i] = hit ? pz : h->pz[i];
-        h->nx[i] = hit ? side * qx : h->nx[i];
-        h->ny[i] = hit ? side * qy : h->ny[i];
-        h->nz[i] = hit ? side * qz : h->nz[i];
-        h->u[i] = hit ? 0 : h->u[i];
-        h->v[i] = hit ? 0 : h->v[i];
-        h->back[i] = hit ? side < 0 : h->back[i];
-        h->material[i] = hit ? material : h->material[i];
+        const koksma__v3 d = AT(r->d, i), p = koksma__v3_add(AT(r->o, i), koksma__v3_scale(d, h->t[i]));
+        const koksma__v3 q = koksma__v3_scale(from_centre(s, p, moves ? r->time[i] : 0, moves), scale);
+        koksma__put_hit(h, i, hit, p, q, koksma__v3_dot(q, d) > 0 ? -1.0f : 1.0f, 0, 0, material);
     }
 }
 
@@ -72,25 +60,23 @@ INLINE void finish_sphere(const koksma__batch_shape *s, const koksma__rays *rest
    squares, so that small spheres far away keep their shadows. An end of the ray is inside the sphere if (a t + b)^2 <
    D; if both ends are outside, the line must cross the sphere between them. For a ray that starts on the sphere, D is
    exactly b^2. */
-INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
-                         koksma__shadows *restrict r, bool moves)
+INLINE void shade_sphere(const koksma__batch_shape *shape, const koksma__hits *restrict h, const int32_t *aimed,
+                         int n, koksma__shadows *restrict r, bool moves)
 {
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2], radius2 = s->radius2;
+    const koksma__batch_shape copy = *shape, *s = &copy;
+    const float radius2 = s->radius2;
     const int32_t id = s->id;
     for (int i = 0; i < STEP(n); i++) {
-        const float ex = h->px[i] - AT(0, cx, h->time[i]), ey = h->py[i] - AT(1, cy, h->time[i]),
-                    ez = h->pz[i] - AT(2, cz, h->time[i]);
-        const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
-        const float x = ey * dz - ez * dy, y = ez * dx - ex * dz, z = ex * dy - ey * dx;
+        const koksma__v3 e = from_centre(s, AT(h->p, i), moves ? h->time[i] : 0, moves), d = AT(r->d, i);
+        const koksma__v3 x = koksma__v3_cross(e, d);
+        const float a = koksma__v3_dot(d, d), b = koksma__v3_dot(e, d);
         const float start = b * b, last = a * KOKSMA__SHADOW_END + b, end = last * last;
         const float away = h->primitive[i] != id ? 1.0f : 0.0f;
-        const float reach = away * (a * radius2 - (x * x + y * y + z * z)) + (1 - away) * start;
+        const float reach = away * (a * radius2 - koksma__v3_dot(x, x)) + (1 - away) * start;
         const int enters = (start > reach) & (end < reach);
         const int crosses = (start >= reach) & (end >= reach) & (b < 0) & (last > 0) & (reach > 0);
         const int leaves = (start < reach) & (end > reach);
-        const int other = aimed[i] != id;
-        r->light[i] *= other & (enters | crosses | leaves) ? 0.0f : 1.0f;
+        r->light[i] *= (aimed[i] != id) & (enters | crosses | leaves) ? 0.0f : 1.0f;
     }
 }
 
@@ -99,12 +85,11 @@ INLINE void shade_sphere(const koksma__batch_shape *s, const koksma__hits *restr
 static void shade_own(const koksma__batch_shape *s, const koksma__hits *restrict h, const int32_t *aimed, int n,
                       koksma__shadows *restrict r)
 {
-    const float cx = s->centre[0], cy = s->centre[1], cz = s->centre[2];
+    const koksma__v3 c = koksma__v3_of(s->centre);
     const int32_t id = s->id;
     for (int i = 0; i < STEP(n); i++) {
-        const float ex = h->px[i] - cx, ey = h->py[i] - cy, ez = h->pz[i] - cz;
-        const float dx = r->dx[i], dy = r->dy[i], dz = r->dz[i];
-        const float a = dx * dx + dy * dy + dz * dz, b = ex * dx + ey * dy + ez * dz;
+        const koksma__v3 e = koksma__v3_subtract(AT(h->p, i), c), d = AT(r->d, i);
+        const float a = koksma__v3_dot(d, d), b = koksma__v3_dot(e, d);
         const float start = b * b, last = a * KOKSMA__SHADOW_END + b, end = last * last;
         const int crosses = (end >= start) & (b < 0) & (last > 0) & (start > 0);
         r->light[i] *= (aimed[i] != id) & crosses ? 0.0f : 1.0f;
