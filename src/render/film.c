@@ -155,11 +155,6 @@ static double mean_of(const float *values, const float *weights, size_t first, s
     return sum / (double)(end - first);
 }
 
-static double luminance_of(const float *rgb, size_t channels)
-{
-    return channels == 1 ? (double)rgb[0] : (double)koksma__luminance3(rgb);
-}
-
 static void add_moments(double *moments, double weight, double y)
 {
     const double square = weight * weight;
@@ -174,7 +169,7 @@ static void splat_sample(const koksma__frame *frame, const koksma__film *film, c
 {
     const int width = frame->options->width, channels = frame->channels;
     const int x0 = (int)floorf(place[0]) - film->reach, y0 = (int)floorf(place[1]) - film->reach;
-    const double luminance = film->all_layers ? luminance_of(rgb, (size_t)channels) : 0;
+    const double luminance = film->all_layers ? (double)koksma__sample_luminance(rgb, (size_t)channels) : 0;
     for (int y = y0; y <= y0 + 2 * film->reach; y++) {
         const float wy = koksma__filter_value(frame->filter, place[1] - ((float)y + 0.5f));
         if (wy == 0 || y < splat->first_row || y >= splat->first_row + splat->rows) {
@@ -210,10 +205,11 @@ static double splat_variance(const double *moments, double weight, double mean)
 static double signed_variance(const float *rgb, const float *weights, size_t channels, size_t first, size_t end)
 {
     double moments[N_MOMENTS] = {0}, mean = 0;
-    const double n = (double)(end - first), origin = luminance_of(rgb + channels * first, channels);
+    const double n = (double)(end - first),
+                 origin = (double)koksma__sample_luminance(rgb + channels * first, channels);
     /* the first sample's value is subtracted, so that equal values have a variance of exactly 0 */
     for (size_t i = first; i < end; i++) {
-        const double y = luminance_of(rgb + channels * i, channels) - origin;
+        const double y = (double)koksma__sample_luminance(rgb + channels * i, channels) - origin;
         mean += (double)weights[i] * y / n;
         add_moments(moments, (double)weights[i], y);
     }
@@ -231,13 +227,13 @@ static void add_layers(koksma_layers *layers, const koksma__values *v, const flo
         layers->normal.pixels[3 * pixel + k] = (float)mean_of(v->normal, NULL, first, end, 3, k);
     }
     for (size_t i = first; i < end; i++) {
-        sum += luminance_of(v->rgb + channels * i, channels);
+        sum += (double)koksma__sample_luminance(v->rgb + channels * i, channels);
         depth += (double)v->depth[i];
         hits += v->depth[i] > 0;
     }
     const double n = (double)(end - first), mean = sum / n;
     for (size_t i = first; i < end; i++) {
-        const double off = luminance_of(v->rgb + channels * i, channels) - mean;
+        const double off = (double)koksma__sample_luminance(v->rgb + channels * i, channels) - mean;
         squares += off * off;
     }
     const double variance = weights ? signed_variance(v->rgb, weights, channels, first, end) : squares / (n - 1) / n;
@@ -334,7 +330,7 @@ static void finish_splats(const koksma__frame *frame, koksma__film *film, bool w
             film->layers->image.pixels[i * channels + k] = shown ? (float)(sum[k] / weight) : 0;
         }
         if (film->all_layers) {
-            const double mean = luminance_of(film->layers->image.pixels + i * channels, channels);
+            const double mean = (double)koksma__sample_luminance(film->layers->image.pixels + i * channels, channels);
             film->layers->variance.pixels[i] = shown ? (float)splat_variance(sum + channels + 1, weight, mean) : 0;
         }
     }

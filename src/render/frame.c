@@ -25,12 +25,18 @@ double koksma__pixel_size(const koksma__camera *camera, int height)
 
 static koksma__batch_camera make_camera(const koksma__camera *from, int width, int height, float origins[3][3])
 {
-    koksma__batch_camera c = {0};
+    koksma__batch_camera c = {.radius = (float)from->lens_radius,
+                              .focus = (float)from->focus_distance,
+                              .open = (float)from->shutter[0],
+                              .interval = (float)(from->shutter[1] - from->shutter[0])};
     const double step = koksma__pixel_size(from, height);
     for (int k = 0; k < 3; k++) {
         const double right = step * from->right[k], down = step * from->down[k];
         const double shift = from->shift[0] * from->right[k] + from->shift[1] * from->down[k];
         c.eye[k] = (float)from->eye[k];
+        c.right[k] = (float)from->right[k];
+        c.down[k] = (float)from->down[k];
+        c.motion[k] = (float)from->motion[k];
         if (from->height > 0) {
             c.base[k] = (float)from->forward[k];
             origins[0][k] = (float)(shift - 0.5 * width * right - 0.5 * height * down);

@@ -17,7 +17,7 @@
 #define KOKSMA_RENDER_VECTOR3_H
 
 #include <math.h>
-#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -231,6 +231,11 @@ static inline float koksma__max3(const float v[3])
 static inline float koksma__luminance3(const float v[3])
 {
     return koksma__v3_luminance(koksma__v3_of(v));
+}
+
+static inline float koksma__sample_luminance(const float *rgb, size_t channels)
+{
+    return channels == 1 ? rgb[0] : koksma__luminance3(rgb);
 }
 
 /* The mirror image of the direction w (towards the eye) at the unit normal n. */

@@ -89,7 +89,8 @@ static void run_all(const koksma__batch_table *batch, world *w, float out[3][KOK
                                                        {false, {0.2f, 0.2f}, 0, 0, 0, 0, 0, 0},
                                                        {true, {0.3f, 0.6f}, 5, 0, 0, 0, 5, 0}};
     const koksma__batch_light light = {{-1, 3, -1}, {2, 0, 0.1f}, {0, 0.3f, 2}, {0, -1, 0}, 30};
-    const koksma__batch_camera camera = {{0, 0, 5}, {-1, 1, -2}, {0.03f, 0, 0.001f}, {0, -0.03f, 0}};
+    const koksma__batch_camera camera = {
+        .eye = {0, 0, 5}, .base = {-1, 1, -2}, .step_x = {0.03f, 0, 0.001f}, .step_y = {0, -0.03f, 0}};
     double xs[2 * KOKSMA__BLOCK];
     uint32_t words[KOKSMA__BLOCK];
     float places[2 * KOKSMA__BLOCK], shuffled[2 * KOKSMA__BLOCK];

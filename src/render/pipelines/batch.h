@@ -67,9 +67,11 @@ typedef enum koksma__light_weight {
 } koksma__light_weight;
 
 /* The camera: the ray through film position (x, y) starts at `eye` and has the direction base + x step_x + y
-   step_y. */
+   step_y. The lens, whose points are offsets from its centre in units of its radius, the shutter, and the motion of the
+   eye per unit of time are read by `start` alone. */
 typedef struct koksma__batch_camera {
     float eye[3], base[3], step_x[3], step_y[3];
+    float radius, focus, right[3], down[3], motion[3], open, interval;
 } koksma__batch_camera;
 
 /* An analytic shape. half_u and half_v are as in koksma__shape; radius2 is the squared radius of a sphere about the
@@ -171,7 +173,6 @@ struct koksma__surfaces;
 struct koksma__light_lanes;
 struct koksma__beams;
 struct koksma__directions;
-struct koksma__lens;
 struct koksma__vertices;
 struct koksma__paths;
 struct koksma__environment;

@@ -46,27 +46,26 @@ void BATCH_NAME(to_disk)(int n, float *restrict x, float *restrict y)
 }
 
 /* The time of a ray, clamped to [0, 1]: before time 0 and after time 1 nothing moves. */
-INLINE float time_of(const struct koksma__lens *lens, float u)
+INLINE float time_of(const koksma__batch_camera *c, float u)
 {
-    const float time = lens->open + lens->interval * u, late = time < 1 ? time : 1;
+    const float time = c->open + c->interval * u, late = time < 1 ? time : 1;
     return late > 0 ? late : 0;
 }
 
-void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__lens *lens, const float *restrict xy,
-                       const float *x, const float *y, const float *u, int n, struct koksma__paths *restrict to)
+void BATCH_NAME(start)(const koksma__batch_camera *camera, const float *restrict xy, const float *x, const float *y,
+                       const float *u, int n, struct koksma__paths *restrict to)
 {
     static const koksma__lanes none;
     const koksma__batch_camera c = *camera;
-    const koksma__lens l = *lens;
     const float *restrict lens_x = x ? x : none, *restrict lens_y = x ? y : none, *restrict times = u ? u : none;
-    const float inverse = x ? 1 / l.focus : 0;
+    const float inverse = x ? 1 / c.focus : 0;
     for (int k = 0; k < 3; k++) {
         float *restrict ok = to->rays.o[k], *restrict dk = to->rays.d[k];
         LANES_APART
         for (int i = 0; i < STEP(n); i++) {
-            const float shift = l.radius * (lens_x[i] * l.right[k] + lens_y[i] * l.down[k]);
-            const float time = time_of(&l, times[i]);
-            ok[i] = c.eye[k] + time * l.motion[k] + shift;
+            const float shift = c.radius * (lens_x[i] * c.right[k] + lens_y[i] * c.down[k]);
+            const float time = time_of(&c, times[i]);
+            ok[i] = c.eye[k] + time * c.motion[k] + shift;
             dk[i] = c.base[k] + xy[2 * i] * c.step_x[k] + xy[2 * i + 1] * c.step_y[k] - shift * inverse;
             to->beta[k][i] = 1;
             to->n[k][i] = 0;
@@ -74,7 +73,7 @@ void BATCH_NAME(start)(const koksma__batch_camera *camera, const struct koksma__
     }
     LANES_APART
     for (int i = 0; i < STEP(n); i++) {
-        to->rays.time[i] = time_of(&l, times[i]);
+        to->rays.time[i] = time_of(&c, times[i]);
         to->pdf[i] = 0;
         to->from[i] = -1;
     }

@@ -184,7 +184,8 @@ static void note_layers(const koksma__hits *hits, const koksma__rays *rays, cons
     for (int i = 0; i < n; i++) {
         const size_t s = start + (size_t)i;
         const bool hit = hits->primitive[i] >= 0;
-        const float square = rays->d[0][i] * rays->d[0][i] + rays->d[1][i] * rays->d[1][i] + rays->d[2][i] * rays->d[2][i];
+        const float square =
+            rays->d[0][i] * rays->d[0][i] + rays->d[1][i] * rays->d[1][i] + rays->d[2][i] * rays->d[2][i];
         values->albedo[3 * s] = values->albedo[3 * s + 1] = values->albedo[3 * s + 2] = hit ? albedo[i] : 0;
         values->normal[3 * s] = hit ? hits->n[0][i] : 0;
         values->normal[3 * s + 1] = hit ? hits->n[1][i] : 0;

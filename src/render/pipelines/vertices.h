@@ -83,13 +83,14 @@ typedef struct koksma__beams {
     KOKSMA__LANES(int32_t, visible);
 } koksma__beams;
 
-/* A block of paths in lanes, with the fields of koksma__path (wavefront_scratch.h). */
+/* A block of paths: their current rays and the weights `beta` with which light along the rays counts for their samples. */
 typedef struct koksma__paths {
     koksma__rays rays;
     _Alignas(64) koksma__lanes beta[3];
-    _Alignas(64) koksma__lanes n[3];
+    _Alignas(64) koksma__lanes n[3]; /* normals of the surfaces where the rays start */
+    /* sampling densities of the directions: 0 if a ray comes from a mirror or the eye, -1 if it must not see lights */
     _Alignas(64) koksma__lanes pdf;
-    KOKSMA__LANES(int32_t, from);
+    KOKSMA__LANES(int32_t, from); /* the primitives on which the rays start, or -1 */
     KOKSMA__LANES(uint32_t, sample);
 } koksma__paths;
 
@@ -105,12 +106,6 @@ typedef struct koksma__vertices {
     koksma__surfaces surfaces;
     _Alignas(64) koksma__lanes light[3]; /* light that this vertex adds to the sample of each path */
 } koksma__vertices;
-
-/* The properties of a camera that koksma__batch_camera lacks: a lens, whose points are offsets from its centre in
-   units of its radius; a shutter; and the motion of the eye per unit of time. */
-typedef struct koksma__lens {
-    float radius, focus, right[3], down[3], motion[3], open, interval;
-} koksma__lens;
 
 static inline unsigned koksma__lobes_of(const koksma__surfaces *s)
 {

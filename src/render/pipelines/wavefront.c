@@ -52,27 +52,13 @@ enum { TOGETHER = 1024 };
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
 
-static koksma__lens lens_of(const koksma__camera *camera)
-{
-    koksma__lens lens = {.radius = (float)camera->lens_radius,
-                         .focus = (float)camera->focus_distance,
-                         .open = (float)camera->shutter[0],
-                         .interval = (float)(camera->shutter[1] - camera->shutter[0])};
-    for (int k = 0; k < 3; k++) {
-        lens.right[k] = (float)camera->right[k];
-        lens.down[k] = (float)camera->down[k];
-        lens.motion[k] = (float)camera->motion[k];
-    }
-    return lens;
-}
-
 /* Moves the origins of rays from the camera, whose directions have length 1 along `forward`, to a plane in front of it. */
 static void advance(koksma__rays *rays, float distance, int n)
 {
     for (int i = 0; distance > 0 && i < n; i++) {
-        rays->o[0][i] += distance * rays->d[0][i];
-        rays->o[1][i] += distance * rays->d[1][i];
-        rays->o[2][i] += distance * rays->d[2][i];
+        for (int k = 0; k < 3; k++) {
+            rays->o[k][i] += distance * rays->d[k][i];
+        }
     }
 }
 
@@ -82,7 +68,6 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
 {
     const koksma__frame *frame = trace->frame;
     const koksma__camera *camera = &frame->scene->camera;
-    const koksma__lens lens = lens_of(camera);
     koksma__queue *queue = &trace->scratch->queues[0];
     const float *points = NULL, *times = NULL;
     if (camera->lens_radius > 0) {
@@ -103,8 +88,8 @@ static koksma_status start_paths(const koksma__trace *trace, const koksma__value
         for (int i = 0; times && i < whole; i++) {
             u[i] = times[2 * (start + (size_t)i)];
         }
-        frame->batch->start(&frame->camera, &lens, values->film + 2 * start, points ? x : NULL, y, times ? u : NULL,
-                            whole, to);
+        frame->batch->start(&frame->camera, values->film + 2 * start, points ? x : NULL, y, times ? u : NULL, whole,
+                            to);
         koksma__move_origins(frame, values->film + 2 * start, whole, &to->rays);
         advance(&to->rays, (float)camera->near_clip, whole);
         for (int i = 0; i < whole; i++) {
@@ -126,9 +111,9 @@ static koksma__v3 direction_at(const koksma__paths *p, int i)
    far it has come. */
 static void pass_light(koksma__paths *p, const koksma__hits *hits, int i, float *passed)
 {
-    p->rays.o[0][i] += hits->t[i] * p->rays.d[0][i];
-    p->rays.o[1][i] += hits->t[i] * p->rays.d[1][i];
-    p->rays.o[2][i] += hits->t[i] * p->rays.d[2][i];
+    for (int k = 0; k < 3; k++) {
+        p->rays.o[k][i] += hits->t[i] * p->rays.d[k][i];
+    }
     p->from[i] = hits->primitive[i];
     *passed += hits->t[i];
 }
@@ -182,7 +167,8 @@ static float met_weight(const koksma__frame *frame, const koksma__paths *p, int 
         /* 1 for a ray from the eye or a mirror, because light sampling cannot find that light */
         return p->pdf[i] < 0 ? 0 : 1;
     }
-    const float o[3] = {p->rays.o[0][i], p->rays.o[1][i], p->rays.o[2][i]}, n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
+    const float o[3] = {p->rays.o[0][i], p->rays.o[1][i], p->rays.o[2][i]},
+                n[3] = {p->n[0][i], p->n[1][i], p->n[2][i]};
     const float sampled = pdf * koksma__light_probability(frame, o, n, (int)light);
     switch (frame->flags->weight) {
     case KOKSMA__WEIGHT_BALANCE:
@@ -237,7 +223,8 @@ static void add_emission(const koksma__frame *frame, koksma__vertices *v, int i)
     const size_t light = (size_t)frame->geometry.light(&frame->geometry, hits->primitive[i]);
     const koksma__shading_light *l = &frame->lights.lights[light];
     if (!hits->back[i] || l->two_sided) {
-        const float o[3] = {rays->o[0][i], rays->o[1][i], rays->o[2][i]}, n[3] = {hits->n[0][i], hits->n[1][i], hits->n[2][i]};
+        const float o[3] = {rays->o[0][i], rays->o[1][i], rays->o[2][i]},
+                    n[3] = {hits->n[0][i], hits->n[1][i], hits->n[2][i]};
         const float d[3] = {rays->d[0][i], rays->d[1][i], rays->d[2][i]}, length = sqrtf(koksma__dot3(d, d));
         float w[3];
         koksma__v3_to(direction_at(v->paths, i), w);
@@ -368,20 +355,29 @@ static koksma_status branch(const koksma__trace *trace, const koksma__vertices *
     const koksma__surface s = koksma__surface_at(&v->surfaces, i);
     koksma__scatter directions[2];
     s.material->bsdf->split(&s, &directions[0], &directions[1]);
-    koksma_status status = KOKSMA_OK;
-    for (int b = 0; !status && b < 2; b++) {
-        koksma__path next = {.time = v->paths->rays.time[i], .from = s.primitive, .sample = v->paths->sample[i]};
+    for (int b = 0; b < 2; b++) {
+        float beta[3];
         for (int k = 0; k < 3; k++) {
-            next.o[k] = s.p[k];
-            next.d[k] = directions[b].w[k];
-            next.n[k] = s.n[k];
-            next.beta[k] = v->paths->beta[k][i] * directions[b].weight[k];
+            beta[k] = v->paths->beta[k][i] * directions[b].weight[k];
         }
-        if (koksma__max3(next.beta) > 0.001f) {
-            status = koksma__wavefront_push(trace->next, &next);
+        if (!(koksma__max3(beta) > 0.001f)) {
+            continue;
         }
+        KOKSMA__TRY(koksma__wavefront_reserve(trace->next));
+        koksma__paths *to = &trace->next->blocks[trace->next->n / KOKSMA__BLOCK];
+        const size_t at = trace->next->n++ % KOKSMA__BLOCK;
+        for (int k = 0; k < 3; k++) {
+            to->rays.o[k][at] = s.p[k];
+            to->rays.d[k][at] = directions[b].w[k];
+            to->n[k][at] = s.n[k];
+            to->beta[k][at] = beta[k];
+        }
+        to->rays.time[at] = v->paths->rays.time[i];
+        to->pdf[at] = 0;
+        to->from[at] = s.primitive;
+        to->sample[at] = v->paths->sample[i];
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Returns the lobes along which paths continue from this vertex. Specular lobes have no ray past the depth limit,
@@ -399,33 +395,18 @@ static unsigned followed_at(const koksma__trace *trace)
 static koksma_status draw_directions(const koksma__trace *trace, const koksma__vertices *v, koksma__lanes u[3])
 {
     const unsigned lobes = koksma__lobes_of(&v->surfaces) & followed_at(trace);
-    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
-    const float *us;
     memset(u, 0, 3 * sizeof *u);
     if (lobes & ~(unsigned)KOKSMA__LOBE_SPECULAR) {
-        KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE, &us));
-        trace->frame->batch->pairs(us, v->paths->sample, v->whole, u[0], u[1]);
+        KOKSMA__TRY(koksma__wavefront_pairs(trace, KOKSMA__USE_LOBE, v, u[0], u[1]));
     }
     if (v->surfaces.traits & KOKSMA__TAKES_CHOICE) {
-        KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LOBE_CHOICE, &us));
-        trace->frame->batch->pairs(us, v->paths->sample, v->whole, u[2], NULL);
+        KOKSMA__TRY(koksma__wavefront_pairs(trace, KOKSMA__USE_LOBE_CHOICE, v, u[2], NULL));
     }
     return KOKSMA_OK;
 }
 
-/* Ends some paths with weights below 1 by Russian roulette and increases the weights of the survivors. A path with
-   a weight of 1 or more continues, because ending it would only add variance. */
-static koksma_status play_roulette(const koksma__trace *trace, const koksma__vertices *v, koksma__directions *to)
-{
-    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
-    const float *ends;
-    _Alignas(64) koksma__lanes u;
-    KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_ROULETTE, &ends));
-    trace->frame->batch->pairs(ends, v->paths->sample, v->whole, u, NULL);
-    trace->frame->batch->roulette(u, v->whole, to);
-    return KOKSMA_OK;
-}
-
+/* From the fifth vertex on, Russian roulette ends some paths with weights below 1 and increases the weights of the survivors.
+   A path with a weight of 1 or more continues, because ending it would only add variance. */
 static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
 {
     const koksma__integrator_flags *flags = trace->frame->flags;
@@ -446,7 +427,8 @@ static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
     KOKSMA__TRY(draw_directions(trace, v, u));
     batch->scatter(&v->surfaces, followed, u, v->whole, &to);
     if (batch->weigh(v->paths, v->whole, &to) && flags->roulette && trace->bounce >= 4) {
-        KOKSMA__TRY(play_roulette(trace, v, &to));
+        KOKSMA__TRY(koksma__wavefront_pairs(trace, KOKSMA__USE_ROULETTE, v, u[0], NULL));
+        batch->roulette(u[0], v->whole, &to);
     }
     KOKSMA__TRY(koksma__wavefront_reserve(queue));
     queue->n += (size_t)batch->close_up(v, &to, &queue->blocks[queue->n / KOKSMA__BLOCK], queue->n % KOKSMA__BLOCK);
@@ -468,34 +450,38 @@ static void add_ambient(const koksma__frame *frame, koksma__vertices *v)
     }
 }
 
-/* Fills the unused lanes with copies of the last path. */
+/* Fills the unused lanes of all arrays with copies of the last path. */
 static void fill_lanes(koksma__paths *p, int n, int whole)
 {
-    for (int i = n; i < whole; i++) {
-        p->rays.o[0][i] = p->rays.o[0][n - 1];
-        p->rays.o[1][i] = p->rays.o[1][n - 1];
-        p->rays.o[2][i] = p->rays.o[2][n - 1];
-        p->rays.d[0][i] = p->rays.d[0][n - 1];
-        p->rays.d[1][i] = p->rays.d[1][n - 1];
-        p->rays.d[2][i] = p->rays.d[2][n - 1];
-        p->rays.time[i] = p->rays.time[n - 1];
-        for (int k = 0; k < 3; k++) {
-            p->beta[k][i] = p->beta[k][n - 1];
+    for (size_t at = 0; at < sizeof *p; at += sizeof p->pdf) {
+        char *lanes = (char *)p + at;
+        for (int i = n; i < whole; i++) {
+            memcpy(lanes + sizeof(float) * (size_t)i, lanes + sizeof(float) * (size_t)(n - 1), sizeof(float));
         }
-        p->from[i] = p->from[n - 1];
-        p->sample[i] = p->sample[n - 1];
     }
 }
 
+/* Samples the medium along the rays, whose hits are known: a distance along each, which either reaches the surface that the
+   ray hits, or is scattered before. Hits become points of the medium, surfaces whose material is the phase function, so
+   that lights and directions are sampled there as on surfaces; their normal is 0, and their primitive is 0 until
+   detach(). */
 static koksma_status travel(const koksma__trace *trace, koksma__paths *paths, koksma__vertices *v)
 {
-    const uint32_t use = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE + KOKSMA__USE_DISTANCE;
-    const float *us;
-    if (trace->frame->scene->medium.is_there) {
-        KOKSMA__TRY(koksma__wavefront_draw(trace, use, &us));
-        koksma__wavefront_travel(trace->frame, us, paths, v);
+    const koksma_scene *scene = trace->frame->scene;
+    _Alignas(64) koksma__lanes u;
+    if (scene->medium.is_there) {
+        KOKSMA__TRY(koksma__wavefront_pairs(trace, KOKSMA__USE_DISTANCE, v, u, NULL));
+        trace->frame->batch->travel(&scene->medium, u, (int32_t)scene->n_materials, v->whole, paths, &v->hits);
     }
     return KOKSMA_OK;
+}
+
+/* Sets the primitive of points in the medium to -1, because rays from there do not start on a primitive. */
+static void detach(const koksma_scene *scene, koksma__vertices *v)
+{
+    for (int i = 0; scene->medium.is_there && i < v->n; i++) {
+        v->hits.primitive[i] = v->hits.material[i] == (int32_t)scene->n_materials ? -1 : v->hits.primitive[i];
+    }
 }
 
 static koksma_status trace_block(const koksma__trace *trace, koksma__paths *paths, int n, koksma__values *values)
@@ -543,15 +529,15 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     for (int i = 0; values->albedo && !trace->bounce && i < n; i++) {
         note_first(frame, values, v, i);
     }
-    koksma__wavefront_detach(frame->scene, v);
+    detach(frame->scene, v);
     add_ambient(frame, v);
     KOKSMA__TRY(koksma__wavefront_light(trace, v, values));
     KOKSMA__TRY(scatter(trace, v));
     for (int i = 0; i < n; i++) {
         float *sum = trace->scratch->sums + 3 * (size_t)paths->sample[i];
-        sum[0] += v->light[0][i];
-        sum[1] += v->light[1][i];
-        sum[2] += v->light[2][i];
+        for (int k = 0; k < 3; k++) {
+            sum[k] += v->light[k][i];
+        }
     }
     return KOKSMA_OK;
 }
@@ -566,12 +552,9 @@ static float clamped(float value, float clamp)
 
 static void hand_over(const koksma__frame *frame, const float *restrict sums, size_t n, float *restrict rgb)
 {
-    const float clamp = (float)frame->scene->clamp;
-    for (size_t i = 0; frame->channels == 3 && i < 3 * n; i++) {
-        rgb[i] = clamped(sums[i], clamp);
-    }
-    for (size_t i = 0; frame->channels == 1 && i < n; i++) {
-        rgb[i] = clamped(sums[3 * i], clamp);
+    const size_t channels = (size_t)frame->channels, step = 3 / channels;
+    for (size_t i = 0; i < n * channels; i++) {
+        rgb[i] = clamped(sums[i * step], (float)frame->scene->clamp);
     }
 }
 

@@ -56,18 +56,18 @@ float koksma__light_probability(const koksma__frame *frame, const float p[3], co
     }
 }
 
-/* Samples one light per vertex at the positions (us[2 sample], us[2 sample + 1]), and adds the unblocked light that
-   the vertices reflect. us NULL: the centres of the lights. */
-static void add_samples(const koksma__trace *trace, koksma__vertices *v, const koksma__light_lanes *l,
-                        const float *us, koksma__values *values)
+/* Samples one light per vertex, or its centre, and adds the unblocked light that the vertices reflect. */
+static koksma_status add_samples(const koksma__trace *trace, koksma__vertices *v, const koksma__light_lanes *l,
+                                 koksma__values *values)
 {
     const koksma__frame *frame = trace->frame;
     koksma__shadows shadows;
     koksma__beams beams;
     KOKSMA__LANES(int32_t, aimed);
     _Alignas(64) koksma__lanes u[2], reflected[3];
-    if (us) {
-        frame->batch->pairs(us, v->paths->sample, v->whole, u[0], u[1]);
+    if (frame->flags->areas) {
+        const uint32_t use = KOKSMA__USE_LIGHT + (uint32_t)(l->same < 0 ? 0 : l->same);
+        KOKSMA__TRY(koksma__wavefront_pairs(trace, use, v, u[0], u[1]));
     } else {
         memset(u, 0, sizeof u);
     }
@@ -77,7 +77,7 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
     const int sampled =
         frame->batch->reflect(&v->surfaces, l, &beams, frame->flags->followed, weight, v->whole, &shadows, reflected);
     if (!sampled) {
-        return;
+        return KOKSMA_OK;
     }
     if (frame->flags->shadows) {
         for (int i = 0; l->same >= 0 && i < v->whole; i++) {
@@ -90,53 +90,33 @@ static void add_samples(const koksma__trace *trace, koksma__vertices *v, const k
         frame->geometry.occlude(&frame->geometry, &v->hits, v->whole, &shadows);
         values->rays += (uint64_t)sampled;
     }
-    koksma__wavefront_attenuate(frame, v, &shadows, reflected);
-    frame->batch->collect(&shadows, reflected, v);
-}
-
-static koksma_status sample_all(const koksma__trace *trace, koksma__vertices *v, uint32_t base,
-                                koksma__light_lanes *l, koksma__values *values)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t k = 0; !status && k < trace->frame->lights.n; k++) {
-        const float *us = NULL;
-        for (int i = 0; i < v->whole; i++) {
-            l->light[i] = v->surfaces.form[i] < 0 ? -1 : (int32_t)k;
-            l->probability[i] = 1;
-        }
-        l->same = (int)k;
-        if (trace->frame->flags->areas) {
-            status = koksma__wavefront_draw(trace, base + KOKSMA__USE_LIGHT + (uint32_t)k, &us);
-        }
-        if (!status) {
-            add_samples(trace, v, l, us, values);
-        }
+    if (frame->scene->medium.is_there) {
+        frame->batch->attenuate(&frame->scene->medium, &v->hits, &shadows, v->whole, reflected);
     }
-    return status;
+    frame->batch->collect(&shadows, reflected, v);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__wavefront_light(const koksma__trace *trace, koksma__vertices *v, koksma__values *values)
 {
     const koksma__frame *frame = trace->frame;
-    const uint32_t base = (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE;
-    const float *us = NULL, *choices = NULL;
+    const bool all = frame->light_selection == KOKSMA_LIGHTS_ALL;
     koksma__light_lanes l = {.lights = frame->lights.lights, .same = -1, .centres = !frame->flags->areas};
     _Alignas(64) koksma__lanes u;
     if (!v->surfaces.traits || !frame->lights.n || trace->bounce > frame->depth) {
         return KOKSMA_OK;
     }
-    if (frame->light_selection == KOKSMA_LIGHTS_ALL) {
-        return sample_all(trace, v, base, &l, values);
+    if (!all) {
+        KOKSMA__TRY(koksma__wavefront_pairs(trace, KOKSMA__USE_LIGHT_CHOICE, v, u, NULL));
+        choose(trace, v, u, &l);
     }
-    KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LIGHT_CHOICE, &choices));
-    if (frame->flags->areas) {
-        KOKSMA__TRY(koksma__wavefront_draw(trace, base + KOKSMA__USE_LIGHT, &us));
+    for (int k = 0; k < (all ? (int)frame->lights.n : 1); k++) {
+        for (int i = 0; i < v->whole; i++) {
+            l.light[i] = v->surfaces.form[i] < 0 ? -1 : all ? k : l.light[i];
+            l.probability[i] = all ? 1 : l.probability[i];
+        }
+        l.same = all ? k : -1;
+        KOKSMA__TRY(add_samples(trace, v, &l, values));
     }
-    frame->batch->pairs(choices, v->paths->sample, v->whole, u, NULL);
-    choose(trace, v, u, &l);
-    for (int i = 0; i < v->whole; i++) {
-        l.light[i] = v->surfaces.form[i] < 0 ? -1 : l.light[i];
-    }
-    add_samples(trace, v, &l, us, values);
     return KOKSMA_OK;
 }

@@ -71,28 +71,6 @@ koksma_status koksma__wavefront_reserve(koksma__queue *queue)
     return KOKSMA_OK;
 }
 
-koksma_status koksma__wavefront_push(koksma__queue *queue, const koksma__path *path)
-{
-    KOKSMA__TRY(koksma__wavefront_reserve(queue));
-    koksma__paths *to = &queue->blocks[queue->n / KOKSMA__BLOCK];
-    const size_t i = queue->n++ % KOKSMA__BLOCK;
-    to->rays.o[0][i] = path->o[0];
-    to->rays.o[1][i] = path->o[1];
-    to->rays.o[2][i] = path->o[2];
-    to->rays.d[0][i] = path->d[0];
-    to->rays.d[1][i] = path->d[1];
-    to->rays.d[2][i] = path->d[2];
-    to->rays.time[i] = path->time;
-    for (int k = 0; k < 3; k++) {
-        to->beta[k][i] = path->beta[k];
-        to->n[k][i] = path->n[k];
-    }
-    to->pdf[i] = path->pdf;
-    to->from[i] = path->from;
-    to->sample[i] = path->sample;
-    return KOKSMA_OK;
-}
-
 /* ---- Samples -------------------------------------------------------------------------------------------------- */
 
 static koksma_status new_use(koksma__wavefront_scratch *scratch, uint32_t use, koksma__drawn **out)
@@ -147,4 +125,13 @@ koksma_status koksma__wavefront_draw(const koksma__trace *trace, uint32_t use, c
     }
     *pairs = status ? NULL : drawn->pairs;
     return status;
+}
+
+koksma_status koksma__wavefront_pairs(const koksma__trace *trace, uint32_t use, const koksma__vertices *v, float *x,
+                                      float *y)
+{
+    const float *pairs;
+    KOKSMA__TRY(koksma__wavefront_draw(trace, (uint32_t)trace->bounce * KOKSMA__USES_A_BOUNCE + use, &pairs));
+    trace->frame->batch->pairs(pairs, v->paths->sample, v->whole, x, y);
+    return KOKSMA_OK;
 }

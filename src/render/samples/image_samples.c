@@ -74,23 +74,6 @@ static void release(koksma__sampler *sampler)
     *sampler = (koksma__sampler){0};
 }
 
-static float below_one(double x)
-{
-    const float last = 1 - 0x1p-24f, f = (float)x;
-    return f < last ? f : last;
-}
-
-/* Stores the coordinates of one use as floats. Sample i is point permutation[i] of the set, or point i if
-   permutation is NULL. */
-static void keep(const double *xs, int dim, int first, bool two, size_t n, const uint32_t *permutation, float *pairs)
-{
-    for (size_t i = 0; i < n; i++) {
-        const double *x = xs + (permutation ? permutation[i] : i) * (size_t)dim + first;
-        pairs[2 * i] = below_one(x[0]);
-        pairs[2 * i + 1] = two ? below_one(x[1]) : 0;
-    }
-}
-
 /* Draws a random order for the set with this key. *out is NULL where the pattern's order is kept: if the pairing is
    not shuffled, and for the film positions, which determine the pixel of each sample. */
 static koksma_status draw_order(const image_samples *s, uint32_t set_key, uint32_t **out)
@@ -127,7 +110,8 @@ static koksma_status make_set(image_samples *s, const koksma_run *run, set *to)
         const koksma__place_of_use at = koksma__place_of_use_at(options, v);
         if (other == to ||
             (at.group >= 0 && at.group == place.group && koksma__set_key(&at, other->use) == set_key)) {
-            keep(points.xs, dim, at.first, koksma_use_at((size_t)v)->dim == 2, s->n, order, other->pairs);
+            koksma__keep_pairs(points.xs, s->n, dim, at.first, koksma_use_at((size_t)v)->dim == 2, order,
+                               other->pairs);
             other->drawn = true;
         }
     }
@@ -147,7 +131,7 @@ static koksma_status make_native(image_samples *s, const koksma__use_list *uses,
     for (size_t i = 0; !status && i < s->n_sets; i++) {
         const uint32_t use = s->sets[i].use;
         const bool two = koksma_use_at((size_t)koksma__use_index(use))->dim == 2;
-        keep(points.xs, dim, koksma__use_dimension(uses, use), two, s->n, NULL, s->sets[i].pairs);
+        koksma__keep_pairs(points.xs, s->n, dim, koksma__use_dimension(uses, use), two, NULL, s->sets[i].pairs);
     }
     koksma_points_fini(&points);
     return status;
@@ -187,43 +171,21 @@ static size_t sort(image_samples *s)
     return most;
 }
 
-/* Lists the uses of the image (pixel, lens and time, then those of each vertex) and returns their number; with list
-   NULL it only counts. */
+/* Lists the uses of the image, the pixel first, and returns their number; with list NULL it only counts. */
 static size_t list_uses(const koksma__use_list *uses, set *list)
 {
     size_t n = 0;
-#define ADD(number)                                                                                                  \
-    do {                                                                                                             \
-        if (list) {                                                                                                  \
-            list[n].use = (uint32_t)(number);                                                                        \
-        }                                                                                                            \
-        n++;                                                                                                         \
-    } while (0)
-    ADD(KOKSMA__USE_PIXEL);
-    if (uses->lens) {
-        ADD(KOKSMA__USE_LENS);
-    }
-    if (uses->time) {
-        ADD(KOKSMA__USE_TIME);
-    }
     for (int v = 0; v < uses->vertices; v++) {
-        const int base = v * KOKSMA__USES_A_BOUNCE;
-        for (int l = 0; l < uses->lights; l++) {
-            ADD(base + KOKSMA__USE_LIGHT + l);
-        }
-        if (uses->light_choice) {
-            ADD(base + KOKSMA__USE_LIGHT_CHOICE);
-        }
-        if (uses->vertices > 1) {
-            ADD(base + KOKSMA__USE_LOBE);
-            ADD(base + KOKSMA__USE_LOBE_CHOICE);
-            ADD(base + KOKSMA__USE_ROULETTE);
-        }
-        if (uses->distance) {
-            ADD(base + KOKSMA__USE_DISTANCE);
+        for (int u = 0; u < KOKSMA_N_USES; u++) {
+            const uint32_t number = koksma__use_number(u);
+            const int times = number == KOKSMA__USE_LIGHT ? uses->lights : v == 0 || number > KOKSMA__USE_TIME;
+            for (int l = 0; koksma__use_is_there(uses, u) && l < times; l++, n++) {
+                if (list) {
+                    list[n].use = (uint32_t)(v * KOKSMA__USES_A_BOUNCE + l) + number;
+                }
+            }
         }
     }
-#undef ADD
     return n;
 }
 

@@ -121,29 +121,24 @@ static bool has_two(uint32_t use)
     return koksma_use_at((size_t)koksma__use_index(use))->dim == 2;
 }
 
-/* Draws a set for a group of uses, and copies the coordinates of one use to room->xs. The scratch keeps the set,
-   because the other uses of the group are drawn later, after this use has been drawn for the neighbouring pixels. */
-static koksma_status take_from_group(const koksma__sampler *sampler, uint64_t pixel, uint32_t use,
-                                     koksma__sample_scratch *room)
+/* Draws the set of a group, of which it is number `group` in the scratch and begins there at dimension `first`. The scratch
+   keeps the set, because the other uses of the group are drawn later, after this use has been drawn for the neighbouring
+   pixels. */
+static koksma_status draw_kept(const koksma__sampler *sampler, uint64_t pixel, uint32_t set_key, size_t group,
+                               const koksma_spec *spec, int dim, size_t first, koksma__sample_scratch *room,
+                               const double **out)
 {
     const pixel_samples *samples = sampler->made;
-    const koksma_render_options *options = samples->options;
-    const koksma__place_of_use *place = &samples->places[koksma__use_index(use)];
-    const size_t n = (size_t)options->spp, slot = pixel % sampler->kept_slots;
-    const uint32_t set_key = koksma__set_key(place, use);
+    const size_t n = (size_t)samples->options->spp, slot = pixel % sampler->kept_slots;
     const uint64_t key = (pixel << 20 | set_key) + 1; /* 0 is the key of an empty slot */
-    uint64_t *kept = &room->kept_keys[slot * sampler->kept_sets + (size_t)place->group];
-    double *set = room->kept + n * (slot * (size_t)sampler->kept_dim + samples->kept_first[place->group]);
+    uint64_t *kept = &room->kept_keys[slot * sampler->kept_sets + group];
+    double *set = room->kept + n * (slot * (size_t)sampler->kept_dim + first);
     if (*kept != key) {
         *kept = 0;
-        const koksma_status status =
-            generate_next(options, &options->groups[place->group].pattern, pixel, set_key, place->dim, room, set);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(generate_next(samples->options, spec, pixel, set_key, dim, room, set));
         *kept = key;
     }
-    take_out(set, n, place->dim, place->first, has_two(use), room->xs);
+    *out = set;
     return KOKSMA_OK;
 }
 
@@ -155,19 +150,21 @@ static koksma_status draw_set(const koksma__sampler *sampler, uint64_t pixel, ui
     const koksma_render_options *options = samples->options;
     const int u = koksma__use_index(use), dims = samples->dims[u];
     const size_t n = (size_t)options->spp;
-    koksma_status status;
-    if (samples->places[u].group >= 0) {
-        status = take_from_group(sampler, pixel, use, room);
+    const koksma__place_of_use *place = &samples->places[u];
+    const double *set;
+    if (place->group >= 0) {
+        KOKSMA__TRY(draw_kept(sampler, pixel, koksma__set_key(place, use), (size_t)place->group,
+                              &options->groups[place->group].pattern, place->dim, samples->kept_first[place->group],
+                              room, &set));
+        take_out(set, n, place->dim, place->first, has_two(use), room->xs);
     } else {
-        status = generate_next(options, koksma__use_spec(options, use), pixel, use, dims, room, room->xs);
-        if (!status && dims == 1) {
+        KOKSMA__TRY(generate_next(options, koksma__use_spec(options, use), pixel, use, dims, room, room->xs));
+        if (dims == 1) {
             widen(room->xs, n);
         }
     }
-    if (!status) {
-        samples->batch->place(room->xs, n, offset, pairs);
-    }
-    return status;
+    samples->batch->place(room->xs, n, offset, pairs);
+    return KOKSMA_OK;
 }
 
 /* The random words that a use needs in each pixel: for its set, if the pattern has a float form, or for the order of
@@ -288,17 +285,9 @@ static koksma_status draw_native(const koksma__sampler *sampler, uint64_t pixel,
                                  koksma__sample_scratch *room, float *pairs)
 {
     const pixel_samples *samples = sampler->made;
-    const size_t n = (size_t)samples->options->spp, slot = pixel % sampler->kept_slots;
-    double *set = room->kept + slot * n * (size_t)sampler->kept_dim;
-    if (room->kept_keys[slot] != pixel + 1) {
-        room->kept_keys[slot] = 0;
-        const koksma_status status =
-            generate_next(samples->options, &samples->options->pattern, pixel, 0, sampler->kept_dim, room, set);
-        if (status) {
-            return status;
-        }
-        room->kept_keys[slot] = pixel + 1;
-    }
+    const size_t n = (size_t)samples->options->spp;
+    const double *set;
+    KOKSMA__TRY(draw_kept(sampler, pixel, 0, 0, &samples->options->pattern, sampler->kept_dim, 0, room, &set));
     take_out(set, n, sampler->kept_dim, koksma__use_dimension(&samples->uses, use), has_two(use), room->xs);
     samples->batch->place(room->xs, n, offset, pairs);
     return KOKSMA_OK;
@@ -324,29 +313,31 @@ static void release(koksma__sampler *sampler)
 /* Allocates *fixed and fills it with the pairs of one use, whose coordinates begin at `first`. */
 static koksma_status keep_fixed(const double *set, size_t n, int dim, int first, bool two, float **fixed)
 {
-    static const float nowhere[2] = {0, 0};
-    double *pairs = malloc(2 * n * sizeof *pairs);
     *fixed = malloc(2 * n * sizeof **fixed);
-    const koksma_status status =
-        pairs && *fixed ? KOKSMA_OK : koksma__fail_memory(2 * n * (sizeof *pairs + sizeof **fixed));
-    if (!status) {
-        take_out(set, n, dim, first, two, pairs);
-        koksma__batch()->place(pairs, n, nowhere, *fixed);
-    }
-    free(pairs);
-    return status;
+    KOKSMA__REQUIRE_MEMORY(*fixed, 2 * n * sizeof **fixed);
+    koksma__keep_pairs(set, n, dim, first, two, NULL, *fixed);
+    return KOKSMA_OK;
+}
+
+/* Makes the set of the first pixel, which checks the pattern. The caller frees *xs even after a failure. */
+static koksma_status try_points(const koksma_render_options *options, const koksma_spec *spec, int dim,
+                                const koksma_run *run, double **xs)
+{
+    const size_t bytes = (size_t)options->spp * (size_t)dim * sizeof **xs;
+    *xs = malloc(bytes);
+    KOKSMA__REQUIRE_MEMORY(*xs, bytes);
+    return generate_at(options, spec, 0, 0, dim, run, *xs);
 }
 
 /* Reads all sets of n points of a family of files in advance, so that no pixel has to open a file. */
 static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, const koksma_run *run, float **fixed,
                                size_t *n_sets)
 {
-    static const float nowhere[2] = {0, 0};
     koksma__file_set *sets = NULL;
     size_t count = 0;
     koksma_status status = koksma__file_sets(spec->path, &sets, &count);
     *n_sets = 0;
-    double *xs = malloc(2 * n * sizeof *xs);
+    double *xs = malloc((size_t)dims * n * sizeof *xs);
     *fixed = count && n <= MAX_KEPT / count ? malloc(2 * n * count * sizeof **fixed) : NULL;
     if (!status && (!xs || (count && !*fixed))) {
         status = koksma__fail_memory(2 * n * count * sizeof **fixed);
@@ -356,11 +347,8 @@ static koksma_status read_sets(const koksma_spec *spec, size_t n, int dims, cons
             continue;
         }
         status = generate(spec, sets[i].seed, n, dims, run, xs);
-        if (!status && dims == 1) {
-            widen(xs, n);
-        }
         if (!status) {
-            koksma__batch()->place(xs, n, nowhere, *fixed + 2 * n * (*n_sets)++);
+            koksma__keep_pairs(xs, n, dims, 0, dims == 2, NULL, *fixed + 2 * n * (*n_sets)++);
         }
     }
     if (!status && !*n_sets) {
@@ -385,11 +373,10 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
         koksma__file_has(spec->path, "{seed}")) {
         return read_sets(spec, n, dims, run, fixed, n_sets);
     }
-    double *xs = malloc(2 * n * sizeof *xs);
+    double *xs = NULL;
     *fixed = NULL;
-    KOKSMA__REQUIRE_MEMORY(xs, 2 * n * sizeof *xs);
     koksma_status status = koksma__check_single_use(spec);
-    status = status ? status : generate_at(options, spec, 0, 0, dims, run, xs);
+    status = status ? status : try_points(options, spec, dims, run, &xs);
     if (!status && koksma_has_one_set(spec)) {
         status = keep_fixed(xs, n, dims, 0, dims == 2, fixed);
     }
@@ -401,20 +388,15 @@ static koksma_status try_set(const koksma_render_options *options, const koksma_
 static koksma_status make_tile(const koksma_render_options *options, const koksma_spec *spec, int u, int dims,
                                const koksma_run *run, const size_t tile[2], float **fixed)
 {
-    static const float nowhere[2] = {0, 0};
     const size_t n = (size_t)options->spp * tile[0] * tile[1];
     KOKSMA__FAIL_IF(n > MAX_KEPT / 2, KOKSMA_ARGUMENT,
                     "%s: a tile of %zu x %zu pixels can have %zu samples a pixel, not %d", spec->pattern->name,
                     tile[0], tile[1], MAX_KEPT / 2 / (tile[0] * tile[1]), options->spp);
-    double *xs = malloc(2 * n * sizeof *xs);
-    *fixed = malloc(2 * n * sizeof **fixed);
-    koksma_status status = xs && *fixed ? KOKSMA_OK : koksma__fail_memory(2 * n * sizeof *xs);
-    status = status ? status
-                    : generate(spec, koksma__random_seed(options->seed, (uint64_t)u, KOKSMA__PURPOSE_SHIFT), n, dims,
-                               run, xs);
-    if (!status) {
-        koksma__batch()->place(xs, n, nowhere, *fixed);
-    }
+    double *xs = malloc((size_t)dims * n * sizeof *xs);
+    KOKSMA__REQUIRE_MEMORY(xs, (size_t)dims * n * sizeof *xs);
+    const uint64_t seed = koksma__random_seed(options->seed, (uint64_t)u, KOKSMA__PURPOSE_SHIFT);
+    koksma_status status = generate(spec, seed, n, dims, run, xs);
+    status = status ? status : keep_fixed(xs, n, dims, 0, dims == 2, fixed);
     free(xs);
     return status;
 }
@@ -478,9 +460,8 @@ static koksma_status try_group(pixel_samples *samples, int g, const koksma_run *
     const koksma_use_group *group = &options->groups[g];
     const size_t n = (size_t)options->spp;
     const int dim = samples->places[group->uses[0]].dim;
-    double *xs = malloc(n * (size_t)dim * sizeof *xs);
-    KOKSMA__REQUIRE_MEMORY(xs, n * (size_t)dim * sizeof *xs);
-    koksma_status status = generate_at(options, &group->pattern, 0, 0, dim, run, xs);
+    double *xs;
+    koksma_status status = try_points(options, &group->pattern, dim, run, &xs);
     for (int i = 0; !status && i < group->n_uses; i++) {
         const int u = group->uses[i];
         samples->shuffles[u] = options->pairing == KOKSMA_PAIRING_SHUFFLED &&
@@ -522,12 +503,9 @@ static koksma_status try_native(koksma__sampler *sampler, const pixel_samples *s
     const koksma_render_options *options = samples->options;
     const int dim = koksma__use_dimension(&samples->uses, UINT32_MAX);
     const size_t n = (size_t)options->spp;
+    double *xs = NULL;
     koksma_status status = check_kept(n, dim, "native pairing");
-    double *xs = status ? NULL : malloc(n * (size_t)dim * sizeof *xs);
-    if (!xs) {
-        return status ? status : koksma__fail_memory(n * (size_t)dim * sizeof *xs);
-    }
-    status = generate_at(options, &options->pattern, 0, 0, dim, run, xs);
+    status = status ? status : try_points(options, &options->pattern, dim, run, &xs);
     free(xs);
     sampler->draw = draw_native;
     sampler->prepare = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The scratch memory for drawing samples. */
+/* What the samplers share: the scratch memory for drawing samples, and the conversion of points to pairs of floats. */
 #include "render/samples/samples.h"
 
 #include <stdlib.h>
@@ -38,4 +38,15 @@ void koksma__sample_scratch_fini(koksma__sample_scratch *room)
     koksma__aligned_free(room->words);
     KOKSMA__FREE(room->xs, room->pairs, room->order, room->kept, room->kept_keys);
     *room = (koksma__sample_scratch){0};
+}
+
+void koksma__keep_pairs(const double *xs, size_t n, int dim, int first, bool two, const uint32_t *permutation,
+                        float *pairs)
+{
+    const float last = 1 - 0x1p-24f;
+    for (size_t i = 0; i < 2 * n; i++) {
+        const double *x = xs + (permutation ? permutation[i / 2] : i / 2) * (size_t)dim + first;
+        const float number = i % 2 == 0 ? (float)x[0] : two ? (float)x[1] : 0;
+        pairs[i] = number < last ? number : last;
+    }
 }

@@ -73,6 +73,11 @@ typedef struct koksma__sampler {
 koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler);
 void koksma__sample_scratch_fini(koksma__sample_scratch *room);
 
+/* Stores the coordinates of a use, which begin at `first` in points of `dim`, as floats below 1; the second is 0 unless the use
+   has `two`. Sample i is point permutation[i], or point i if permutation is NULL. */
+void koksma__keep_pairs(const double *xs, size_t n, int dim, int first, bool two, const uint32_t *permutation,
+                        float *pairs);
+
 /* ---- A new set in every pixel (pixel_samples.c) ----------------------------------------------------------------- */
 
 /* Opens a sampler. It draws one set of each pattern first, so that a pattern that cannot have spp points fails here;

@@ -22,19 +22,17 @@ static const uint32_t numbers[] = {
 #undef USE
 };
 
-enum {
-    LINES = 0
-#define USE(id, number, name, dim, help) +1
-#include "render/samples/uses.def"
-#undef USE
-};
-
-_Static_assert((int)LINES == (int)KOKSMA_N_USES && sizeof uses_table / sizeof *uses_table == KOKSMA_N_USES,
+_Static_assert(sizeof uses_table / sizeof *uses_table == KOKSMA_N_USES,
                "koksma/render.h must have the right number of uses, and their numbers must count up from 0");
 
 const koksma_use *koksma_use_at(size_t i)
 {
     return i < KOKSMA_N_USES ? &uses_table[i] : NULL;
+}
+
+uint32_t koksma__use_number(int u)
+{
+    return numbers[u];
 }
 
 int koksma__use_index(uint32_t use)

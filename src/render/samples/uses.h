@@ -49,8 +49,9 @@ const koksma_spec *koksma__use_spec(const koksma_render_options *options, uint32
    in the plane, it takes the first coordinate of two-dimensional sets. */
 int koksma__use_set_dim(const koksma_spec *spec, int u);
 
-/* Returns the index in uses.def of a use at any bounce. */
+/* Returns the index in uses.def of a use at any bounce, and the number of a use at the first. */
 int koksma__use_index(uint32_t use);
+uint32_t koksma__use_number(int u);
 
 /* Returns the first dimension of a use in a native pattern, or the number of dimensions if use is UINT32_MAX. */
 int koksma__use_dimension(const koksma__use_list *uses, uint32_t use);

@@ -34,6 +34,7 @@ typedef struct koksma__sample_values {
 /* What methods of one family share: those whose samples come in point sets, and those that split strata. Any thread may
    call the functions that take a pixel, but only one thread at a time for each pixel. */
 typedef struct koksma__adaptive_family {
+    size_t (*bytes)(int spp); /* what the state of a pixel takes at first */
     void (*close)(koksma__adaptive *run);
     /* NULL, or prepares a selected pixel before its samples are drawn. Errors: MEMORY. */
     koksma_status (*prepare)(koksma__adaptive *run, size_t pixel);
@@ -52,8 +53,6 @@ typedef struct koksma__adaptive_family {
     /* NULL, or describes the strata of a pixel for a figure. Errors: MEMORY. */
     koksma_status (*show)(const koksma__adaptive *run, size_t pixel, koksma_strata *out);
 } koksma__adaptive_family;
-
-extern const koksma__adaptive_family koksma__sets_family, koksma__strata_family;
 
 /* An adaptive method. */
 typedef struct koksma__adaptive_method {
@@ -75,46 +74,10 @@ struct koksma__adaptive {
     koksma__sample_demand *demands;
     uint32_t *taken; /* number of samples of each pixel so far */
     bool probing;    /* this round draws only probes */
-    void *state;     /* state of the method: koksma__pixel_sets of every pixel, or koksma__strata */
+    void *state;     /* state of the method */
     void *extra;     /* further memory of the method, freed by the engine; NULL: none */
     koksma_adaptive_report report;
 };
-
-/* ---- Methods whose samples come in point sets (adaptive_sets.c) ------------------------------------------------- */
-
-/* Statistics of the sets of a pixel. `origin`, the luminance of the first sample, is subtracted from all
-   luminances, so that equal values have variance 0. */
-typedef struct koksma__pixel_sets {
-    uint32_t sets;      /* number of sets in the sums */
-    uint32_t drawn;     /* number of sets that were drawn */
-    float lo[3], hi[3]; /* minimum and maximum of the samples in each channel */
-    float origin;
-    double sum[3]; /* weighted sum of the samples in each channel */
-    double all[3];
-    double sum_y, sum_yy; /* sums of the luminances of samples and of their squares */
-    double sum_w3;        /* sum of the cubed weights */
-    double moments[3][3]; /* element [j][k] is the sum over the samples of weight^j luminance^k */
-} koksma__pixel_sets;
-
-/* The parameters of every method that draws sets begin with these: first, most and, if there is one, threshold. */
-enum { KOKSMA__SETS_FIRST, KOKSMA__SETS_MOST, KOKSMA__SETS_THRESHOLD };
-#define KOKSMA__SETS_PARAMS(first, least)                                                                            \
-    {"first", "number of point sets in the first round", first, least, 4096, NULL, true},                            \
-    {                                                                                                                \
-        "most", "largest number of point sets of a pixel", 64, 1, 1 << 16, NULL, true                                \
-    }
-
-koksma_status koksma__sets_open(koksma__adaptive *run);
-
-koksma__pixel_sets *koksma__sets_of(const koksma__adaptive *run, size_t pixel);
-size_t koksma__set_size(const koksma__adaptive *run);
-
-/* Sets *demand to `sets` more sets, or to as many as the pixel may still take. */
-void koksma__sets_demand(const koksma__adaptive *run, size_t pixel, double sets, double score,
-                         koksma__sample_demand *demand);
-
-/* Returns the variance of the luminance of a sample, as if the samples were independent. */
-double koksma__sets_variance(const koksma__adaptive *run, const koksma__pixel_sets *p);
 
 /* ---- Places in strata that are split (adaptive_place.c) --------------------------------------------------------- */
 
@@ -190,14 +153,6 @@ int koksma__stratum_quarter(const koksma__strata *s, const koksma__use_cells *ba
 /* Computes the position in [0,1)^2 of a stratum's sample in a use. */
 void koksma__stratum_place(const koksma__strata *s, const koksma__use_cells *base, const koksma__use_cells *use,
                            const koksma__stratum *stratum, uint32_t stage, float place[2]);
-
-/* ---- Methods that split strata (adaptive_strata.c) -------------------------------------------------------------- */
-
-/* The parameters of every method that splits strata begin with these. */
-enum { KOKSMA__STRATA_LEVELS, KOKSMA__STRATA_THRESHOLD, KOKSMA__STRATA_PARAMS };
-
-koksma_status koksma__strata_open(koksma__adaptive *run);
-void koksma__strata_decide(koksma__adaptive *run, size_t pixel, void *scratch, koksma__sample_demand *demand);
 
 /* ---- Strata for figures (adaptive_show.c) ----------------------------------------------------------------------- */
 

@@ -373,8 +373,9 @@ uint64_t koksma_adaptive_size_of(const koksma_render_options *options, const kok
     KOKSMA__REQUIRE_OR(0, options, adaptive);
     KOKSMA__REQUIRE_OR(0, adaptive->method);
     const uint64_t pixels = (uint64_t)options->width * (uint64_t)options->height;
-    const size_t strata = sizeof(koksma__tree) + (size_t)options->spp * sizeof(koksma__stratum);
-    const size_t state = adaptive->method->own_samples ? strata : sizeof(koksma__pixel_sets);
+    KOKSMA__REQUIRE_OR(0, adaptive->method->functions);
+    const koksma__adaptive_method *method = adaptive->method->functions;
+    const size_t state = method->family->bytes(options->spp);
     return pixels * (sizeof(koksma__sample_demand) + sizeof(uint32_t) + state);
 }
 

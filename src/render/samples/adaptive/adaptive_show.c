@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Describes the strata of a pixel in the unit square of each use, for figures such as 5.35 and 5.36 of Shirley 1991,
- * and marks the splits that were needless (adaptive_strata.c has the test). Splits are reconstructed from the strata:
+ * and marks the splits that were needless (adapt_strata.c has the test). Splits are reconstructed from the strata:
  * each stratum stores a digit for each split that led to it. Of all strata that descend from one stratum at depth
  * `level`, exactly one has only zeros among its digits from that depth on; it represents the split of that stratum.
  */
@@ -62,7 +62,7 @@ static void box_of(const view *v, const koksma__stratum *stratum, double *x, dou
 
 static double value_of(const view *v, const koksma__stratum *stratum)
 {
-    return (double)(v->run->frame->channels == 1 ? stratum->value[0] : koksma__luminance3(stratum->value));
+    return (double)koksma__sample_luminance(stratum->value, (size_t)v->run->frame->channels);
 }
 
 /* Returns the mean over all parts of the initial stratum that contains stratum i. The parts of an initial stratum
