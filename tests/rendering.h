@@ -87,25 +87,38 @@ static inline koksma_render_options options_of(const koksma_scene *scene, const 
     return options;
 }
 
-/* Mean of the image's first channel, and the standard error of it from the pixels, which are independent. */
-static inline double mean_of(const koksma_scene *scene, const koksma_render_options *options, double *error)
+/* The means of the image's channels, three times the same of a grey one, and the standard errors of them from the pixels,
+   which are independent. */
+static inline void means_of(const koksma_scene *scene, const koksma_render_options *options, double mean[3],
+                            double error[3])
 {
     koksma_image image;
-    double sum = 0, squares = 0;
     assert_ok(koksma_render(scene, options, NULL, &image));
-    const size_t n = (size_t)image.width * (size_t)image.height;
-    for (size_t i = 0; i < n; i++) {
-        sum += (double)image.pixels[i * (size_t)image.channels];
-    }
-    for (size_t i = 0; i < n; i++) {
-        const double off = (double)image.pixels[i * (size_t)image.channels] - sum / (double)n;
-        squares += off * off;
+    const size_t n = (size_t)image.width * (size_t)image.height, channels = (size_t)image.channels;
+    for (size_t k = 0; k < 3; k++) {
+        double sum = 0, squares = 0;
+        for (size_t i = 0; i < n; i++) {
+            sum += (double)image.pixels[i * channels + k % channels];
+        }
+        mean[k] = sum / (double)n;
+        for (size_t i = 0; i < n; i++) {
+            const double off = (double)image.pixels[i * channels + k % channels] - mean[k];
+            squares += off * off;
+        }
+        error[k] = n > 1 ? sqrt(squares / (double)(n - 1) / (double)n) : 0;
     }
     koksma_image_fini(&image);
+}
+
+/* Those of the first channel. */
+static inline double mean_of(const koksma_scene *scene, const koksma_render_options *options, double *error)
+{
+    double means[3], errors[3];
+    means_of(scene, options, means, errors);
     if (error) {
-        *error = n > 1 ? sqrt(squares / (double)(n - 1) / (double)n) : 0;
+        *error = errors[0];
     }
-    return sum / (double)n;
+    return means[0];
 }
 
 /* Pixels over many seeds (the first channel) and the image's mean, which is known better from these than from pixels that

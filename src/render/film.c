@@ -95,6 +95,18 @@ void koksma__film_fini(koksma__film *film)
     *film = (koksma__film){0};
 }
 
+void koksma_layers_fini(koksma_layers *layers)
+{
+    if (layers) {
+        koksma_image_fini(&layers->image);
+        koksma_image_fini(&layers->albedo);
+        koksma_image_fini(&layers->normal);
+        koksma_image_fini(&layers->depth);
+        koksma_image_fini(&layers->samples);
+        koksma_image_fini(&layers->variance);
+    }
+}
+
 koksma_status koksma__film_open_task(const koksma__frame *frame, koksma__film *film, size_t task, int first_row,
                                      int rows)
 {
@@ -216,29 +228,35 @@ static double signed_variance(const float *rgb, const float *weights, size_t cha
     return splat_variance(moments, n, mean);
 }
 
-/* weights: NULL unless the filter has negative lobes. The variance of splatted pixels is computed at the end. */
-static void add_layers(koksma_layers *layers, const koksma__values *v, const float *weights, size_t channels,
-                       size_t pixel, size_t first, size_t end)
+void koksma__film_add_surface(const koksma_layers *layers, const koksma__values *v, size_t pixel, size_t first,
+                              size_t end)
 {
-    double sum = 0, squares = 0, depth = 0;
+    double depth = 0;
     size_t hits = 0;
     for (size_t k = 0; k < 3; k++) {
         layers->albedo.pixels[3 * pixel + k] = (float)mean_of(v->albedo, NULL, first, end, 3, k);
         layers->normal.pixels[3 * pixel + k] = (float)mean_of(v->normal, NULL, first, end, 3, k);
     }
     for (size_t i = first; i < end; i++) {
-        sum += (double)koksma__sample_luminance(v->rgb + channels * i, channels);
         depth += (double)v->depth[i];
         hits += v->depth[i] > 0;
     }
-    const double n = (double)(end - first), mean = sum / n;
+    layers->depth.pixels[pixel] = hits ? (float)(depth / (double)hits) : 0;
+}
+
+/* The variance of the mean luminance of samples first .. end - 1. */
+static double plain_variance(const float *rgb, size_t channels, size_t first, size_t end)
+{
+    const double n = (double)(end - first);
+    double sum = 0, squares = 0;
     for (size_t i = first; i < end; i++) {
-        const double off = (double)koksma__sample_luminance(v->rgb + channels * i, channels) - mean;
+        sum += (double)koksma__sample_luminance(rgb + channels * i, channels);
+    }
+    for (size_t i = first; i < end; i++) {
+        const double off = (double)koksma__sample_luminance(rgb + channels * i, channels) - sum / n;
         squares += off * off;
     }
-    const double variance = weights ? signed_variance(v->rgb, weights, channels, first, end) : squares / (n - 1) / n;
-    layers->depth.pixels[pixel] = hits ? (float)(depth / (double)hits) : 0;
-    layers->variance.pixels[pixel] = end - first > 1 ? (float)variance : 0;
+    return squares / (n - 1) / n;
 }
 
 void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
@@ -264,8 +282,11 @@ void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t tas
                 out[k] = (float)mean_of(values->rgb, weights, first, end, channels, k);
             }
         }
-        if (film->all_layers) {
-            add_layers(film->layers, values, has_lobes ? weights : NULL, channels, pixel, first, end);
+        if (film->all_layers) { /* the variance of splatted pixels is computed at the end */
+            const double variance = has_lobes ? signed_variance(values->rgb, weights, channels, first, end)
+                                              : plain_variance(values->rgb, channels, first, end);
+            koksma__film_add_surface(film->layers, values, pixel, first, end);
+            film->layers->variance.pixels[pixel] = end - first > 1 ? (float)variance : 0;
         }
     }
 }

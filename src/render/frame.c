@@ -154,6 +154,34 @@ static koksma_status make_lane_materials(koksma__frame *f)
     return KOKSMA_OK;
 }
 
+/* ---- Names of options that are enumerations ---------------------------------------------------------- */
+
+#define NAME_AT(names, i) ((unsigned)(i) < sizeof(names) / sizeof *(names) ? (names)[i] : NULL)
+
+const char *koksma_pairing_name(koksma_pairing pairing)
+{
+    static const char *const names[] = {[KOKSMA_PAIRING_SHUFFLED] = "shuffled",
+                                        [KOKSMA_PAIRING_ALIGNED] = "aligned",
+                                        [KOKSMA_PAIRING_NATIVE] = "native"};
+    return NAME_AT(names, pairing);
+}
+
+const char *koksma_scope_name(koksma_scope scope)
+{
+    static const char *const names[] = {[KOKSMA_SCOPE_PIXEL] = "pixel", [KOKSMA_SCOPE_IMAGE] = "image"};
+    return NAME_AT(names, scope);
+}
+
+const char *koksma_light_selection_name(koksma_light_selection selection)
+{
+    static const char *const names[] = {[KOKSMA_LIGHTS_ALL] = "all",
+                                        [KOKSMA_LIGHTS_ONE] = "one",
+                                        [KOKSMA_LIGHTS_POWER] = "power",
+                                        [KOKSMA_LIGHTS_UNIFORM] = "uniform",
+                                        [KOKSMA_LIGHTS_AUTO] = "auto"};
+    return NAME_AT(names, selection);
+}
+
 /* ---- The frame ------------------------------------------------------------------------------------------- */
 
 int koksma_render_depth(const koksma_scene *scene, const koksma_render_options *options)

@@ -232,10 +232,6 @@ koksma_status koksma__render_rows(const koksma_scene *scene, const koksma_render
 
 /* ---- Size of a picture --------------------------------------------------------------------------------- */
 
-/*
- * The number of bytes that the film of an image, and an image-wide pattern for all pixels, will take.
- */
-
 koksma_render_size koksma_render_size_of(const koksma_scene *scene, const koksma_render_options *options,
                                          bool all_layers)
 {

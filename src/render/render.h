@@ -198,6 +198,10 @@ void koksma__film_close_task(const koksma__frame *frame, koksma__film *film, siz
 void koksma__film_add(const koksma__frame *frame, koksma__film *film, size_t task, const koksma__group *group,
                       const koksma__values *values);
 
+/* Sets the albedo, normal and depth of a pixel from its samples first .. end - 1. */
+void koksma__film_add_surface(const koksma_layers *layers, const koksma__values *values, size_t pixel, size_t first,
+                              size_t end);
+
 /* Does what koksma__film_add does, if all samples of the group have the colour rgb and the film has neither splatting
    nor layers beside the image. */
 void koksma__film_fill(const koksma__film *film, const koksma__group *group, const float *rgb, size_t channels);

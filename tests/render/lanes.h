@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* For tests of loops over lanes: vectors in lanes, random shapes, and a sample of a light at one point, by the loop that the
-   renderer uses for blocks of them. */
+/* For tests of loops over lanes: vectors in lanes, random shapes, and a sample of a light at one point, by the loop that
+   the renderer uses for blocks of them. */
 #ifndef KOKSMA_TEST_LANES_H
 #define KOKSMA_TEST_LANES_H
 

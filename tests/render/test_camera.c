@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lens, shutter, filters and layers, against closed forms. */
+/* Lens, shutter and layers, against closed forms. */
 #include "render/render.h"
 #include "rendering.h"
 
@@ -160,8 +160,6 @@ TEST_CASE(shutter_sees_the_time)
     koksma_scene_close(scene);
 }
 
-/* ---- Patterns, pairings, scopes, filters -------------------------------------------------------------------- */
-
 /* A million samples in a pixel, of a value that floats can't sum: 2^20 x 0.7 would be 1 % too much. */
 TEST_CASE(many_splats_are_summed)
 {
@@ -170,18 +168,6 @@ TEST_CASE(many_splats_are_summed)
     options.splat = true;
     assert_near(mean_of(scene, &options, NULL), 0.7, 1e-6);
     koksma_scene_close(scene);
-}
-
-/* Filters are even, and 0 beyond their radius. */
-TEST_CASE(filters_are_what_they_say)
-{
-    const koksma_filter *f;
-    for (size_t i = 0; (f = koksma_filter_at(i)); i++) {
-        for (double x = 0; x < f->radius; x += 0.01) {
-            assert_true(f->value(x) == f->value(-x));
-        }
-        assert_true(f->value(f->radius + 1e-9) == 0);
-    }
 }
 
 /* ---- Layers --------------------------------------------------------------------------------------------- */

@@ -17,27 +17,12 @@ static koksma__shading_light opened(koksma_image *image, double scale, double an
     return e;
 }
 
-static void radiance_along(const koksma__shading_light *e, const float w[3], float rgb[3])
-{
-    e->kind->radiance(e, w, rgb);
-}
-
-static float pdf_of(const koksma__shading_light *e, const float w[3])
-{
-    return e->kind->pdf(e, w, w, 0, w);
-}
-
 static float sample_of(const koksma__shading_light *e, const float u[2], float w[3])
 {
     koksma__beam beam;
     light_sample(e, w, u, &beam);
     memcpy(w, beam.w, sizeof beam.w);
     return beam.pdf;
-}
-
-static void closed(koksma__shading_light *e)
-{
-    e->kind->close(e->data);
 }
 
 /* Pixel i has the radiance i + 1 in red. */
@@ -60,7 +45,7 @@ static int pixel_along(const koksma__shading_light *e, float x, float y, float z
 {
     const float length = sqrtf(x * x + y * y + z * z), w[3] = {x / length, y / length, z / length};
     float rgb[3];
-    radiance_along(e, w, rgb);
+    e->kind->radiance(e, w, rgb);
     return (int)lrintf(rgb[0]) - 1;
 }
 
@@ -77,13 +62,13 @@ TEST_CASE(pixels_are_where_they_should_be)
     assert_int_equal(pixel_along(&e, 1, -0.1f, 0.1f), 2 * WIDTH + 3 * WIDTH / 4);
     assert_int_equal(pixel_along(&e, 0.1f, 0.1f, 1), WIDTH + WIDTH - 1);
     assert_int_equal(pixel_along(&e, -0.1f, 0.1f, 1), WIDTH);
-    closed(&e);
+    e.kind->close(e.data);
     /* A quarter turn about y takes -z to -x and +x to -z. */
     e = opened(&image, 1, M_PI / 2);
     assert_int_equal(pixel_along(&e, -1, 0.1f, -0.1f), WIDTH + WIDTH / 2);
     assert_int_equal(pixel_along(&e, -1, 0.1f, 0.1f), WIDTH + WIDTH / 2 - 1);
     assert_int_equal(pixel_along(&e, -0.1f, 0.1f, -1), WIDTH + 3 * WIDTH / 4 - 1);
-    closed(&e);
+    e.kind->close(e.data);
     koksma_image_fini(&image);
 }
 
@@ -103,8 +88,8 @@ TEST_CASE(choosing_is_unbiased)
         float w[3], rgb[3];
         const float density = sample_of(&e, u, w);
         assert_near((double)(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), 1, 1e-6);
-        assert_near((double)(pdf_of(&e, w) / density), 1, 1e-5);
-        radiance_along(&e, w, rgb);
+        assert_near((double)(e.kind->pdf(&e, w, w, 0, w) / density), 1, 1e-5);
+        e.kind->radiance(&e, w, rgb);
         sum += (double)rgb[0] / (double)density;
         chosen[lrintf(2 * rgb[0]) - 1] += 1.0 / SIDE / SIDE;
     }
@@ -113,7 +98,7 @@ TEST_CASE(choosing_is_unbiased)
         const double share = (i + 1) * sin(M_PI * (i / WIDTH + 0.5) / HEIGHT) / all;
         assert_near(chosen[i], 0.99 * share + 0.01 * solid_angle(i / WIDTH) / (4 * M_PI), 3e-3);
     }
-    closed(&e);
+    e.kind->close(e.data);
     koksma_image_fini(&image);
 }
 
@@ -129,12 +114,12 @@ TEST_CASE(density_is_a_density)
         const double polar = M_PI * (i / COLUMNS + 0.5) / ROWS, azimuth = 2 * M_PI * (i % COLUMNS + 0.5) / COLUMNS;
         const float w[3] = {(float)(sin(polar) * cos(azimuth)), (float)cos(polar),
                             (float)(sin(polar) * sin(azimuth))};
-        const double density = (double)pdf_of(&e, w);
+        const double density = (double)e.kind->pdf(&e, w, w, 0, w);
         assert_true(density >= 0.0099 / (4 * M_PI));
         sum += density * sin(polar) * (M_PI / ROWS) * (2 * M_PI / COLUMNS);
     }
     assert_near(sum, 1, 2e-3);
-    closed(&e);
+    e.kind->close(e.data);
     koksma_image_fini(&image);
 }
 
@@ -152,21 +137,21 @@ TEST_CASE(odd_pixels_are_dark_or_refused)
         const float u[2] = {(float)(i % 8) / 8, (float)(i / 8) / 8};
         float w[3], rgb[3];
         const float density = sample_of(&e, u, w);
-        radiance_along(&e, w, rgb);
+        e.kind->radiance(&e, w, rgb);
         assert_true(density > 0 && density < 1e6f);
         assert_float_equal(rgb[0] + rgb[1] + rgb[2], 0, 0);
     }
-    closed(&e);
+    e.kind->close(e.data);
     image.pixels[2] = 3; /* grey */
     e = opened(&image, 2, 0);
     assert_near((double)e.power, 3 * 2 / 6.0, 1e-6);
-    closed(&e);
+    e.kind->close(e.data);
     for (size_t i = 0; i < 3; i++) {
         const koksma__light light = {.radiance = {1, 1, 1}, .image = &image};
         image.pixels[4] = bad[i];
         assert_int_equal(e.kind->open(NULL, &light, &e), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "pixel 4,0"));
-        closed(&e);
+        e.kind->close(e.data);
     }
     koksma_image_fini(&image);
 }
@@ -189,11 +174,11 @@ TEST_CASE(a_row_at_the_pole_is_whole)
                 const float u[2] = {((float)(i % SIDE) + 0.5f) / SIDE, ((float)(i / SIDE) + 0.5f) / SIDE};
                 float w[3], rgb[3];
                 const float density = sample_of(&e, u, w);
-                radiance_along(&e, w, rgb);
+                e.kind->radiance(&e, w, rgb);
                 sum += (double)rgb[0] * fabs((double)w[1]) / (double)density / (SIDE * SIDE);
             }
             assert_near(sum / (M_PI * pow(sin(M_PI / height), 2)), 1, 5e-3);
-            closed(&e);
+            e.kind->close(e.data);
             koksma_image_fini(&image);
         }
     }

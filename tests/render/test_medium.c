@@ -17,33 +17,6 @@ static bool renders_media(const koksma_integrator *in)
     return ((const koksma__integrator_flags *)in->flags)->media;
 }
 
-/* The means of the image's channels, three times the same of a grey one, and their standard errors. */
-static void means_of(const koksma_image *image, double mean[3], double error[3])
-{
-    const size_t n = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
-    for (size_t k = 0; k < 3; k++) {
-        double sum = 0, squares = 0;
-        for (size_t i = 0; i < n; i++) {
-            sum += (double)image->pixels[i * channels + k % channels];
-        }
-        mean[k] = sum / (double)n;
-        for (size_t i = 0; i < n; i++) {
-            const double off = (double)image->pixels[i * channels + k % channels] - mean[k];
-            squares += off * off;
-        }
-        error[k] = sqrt(squares / (double)(n - 1) / (double)n);
-    }
-}
-
-static void render_means(const koksma_scene *scene, const koksma_render_options *options, double mean[3],
-                         double error[3])
-{
-    koksma_image image;
-    assert_ok(koksma_render(scene, options, NULL, &image));
-    means_of(&image, mean, error);
-    koksma_image_fini(&image);
-}
-
 /* ---- Absorption ----------------------------------------------------------------------------------------------- */
 
 /* A medium that only absorbs leaves exp(-sigma_a d) of the light of an emitter, a point and the sky, without noise: d is
@@ -98,7 +71,7 @@ TEST_CASE(absorption_is_exponential)
             }
             koksma_render_options options = options_of(scene, "random", koksma_integrator_at(i)->name, 1, 4);
             double mean[3], error[3];
-            render_means(scene, &options, mean, error);
+            means_of(scene, &options, mean, error);
             for (int k = 0; k < 3; k++) {
                 const double expected = cases[c].light * exp(-sigma[k] * cases[c].length);
                 assert_that(fabs(mean[k] - expected) <= 1e-5 * expected, "%s by %s, channel %d: %.8g, expected %.8g",
@@ -161,7 +134,7 @@ TEST_CASE(single_scattering_is_its_integral)
                 options.pairing = ways[w].pairing;
                 options.scope = ways[w].scope;
                 options.seed = 1 + c;
-                render_means(scene, &options, mean, error);
+                means_of(scene, &options, mean, error);
                 for (int k = 0; k < 3; k++) {
                     assert_mean(mean[k], error[k], scattered_once(a[k], b[k], gs[c]));
                     assert_true(error[k] < test_repeats(0.05, 0.15) * mean[k]);
@@ -281,7 +254,7 @@ TEST_CASE(emitting_enclosures_are_white)
                     options_of(scene, "random", koksma_integrator_at(i)->name, test_repeats(16, 4), 24);
                 double mean[3], error[3];
                 options.depth = 40;
-                render_means(scene, &options, mean, error);
+                means_of(scene, &options, mean, error);
                 for (int k = 0; k < 3; k++) {
                     assert_mean(mean[k], error[k] + 1e-4, 1);
                 }
@@ -404,8 +377,8 @@ static koksma__medium random_medium(int round)
     return m;
 }
 
-/* Blocks of rays in media of all kinds, also along axes and with channels that carry nothing: every instruction set gives the
-   same bits, rays scatter inside, and shadow rays keep exp(-(a + b) s) of their light. */
+/* Blocks of rays in media of all kinds, also along axes and with channels that carry nothing: every instruction set gives
+   the same bits, rays scatter inside, and shadow rays keep exp(-(a + b) s) of their light. */
 TEST_CASE(blocks_of_rays_travel_alike)
 {
     for (int round = 0; round < test_repeats(210, 42); round++) {

@@ -5,7 +5,6 @@
 #include "core/random.h"
 #include "core/spec.h"
 #include "render/samples/samples.h"
-#include "render/samples/uses.h"
 #include "rendering.h"
 #include "test.h"
 #include <koksma/render.h>

@@ -102,3 +102,36 @@ TEST_CASE(shadows_take_light)
         koksma_scene_close(scene);
     }
 }
+
+/* A light that is seen does not stand in its own light, be it small and far or all of it far from the origin,
+   where places are known to a thousandth. */
+TEST_CASE(seen_lights_do_not_shade_themselves)
+{
+    static const struct {
+        double x;
+        const char *light; /* for x, x */
+        double reflected, off;
+    } cases[] = {
+        {0, "'kind': 'sphere', 'centre': [%.9g, 8, 0], 'radius': 0.1", 2e-4 * 0.8, 2e-4},
+        {0, "'kind': 'sphere', 'centre': [%.9g, 8, 0], 'radius': 0.01", 2e-6 * 0.8, 2e-4},
+        {1000, "'kind': 'disk', 'centre': [%.9g, 8, 0], 'normal': [0, -1, 0], 'radius': 0.01", 2e-6 * 0.64, 2e-4},
+        {10000, "'kind': 'disk', 'centre': [%.9g, 8, 0], 'normal': [0, -1, 0], 'radius': 0.01", 2e-6 * 0.64, 2e-3},
+        {10000, "'kind': 'rectangle', 'centre': [%.9g, 8, 0], 'normal': [0, -1, 0], 'half': [0.01, 0.01]",
+         2e-6 * 0.64 * 4 / M_PI, 2e-3},
+    };
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        char text[1024], light[256];
+        const double x = cases[i / 2].x;
+        snprintf(light, sizeof light, cases[i / 2].light, x + 6); /* at distance 10, aslant */
+        snprintf(text, sizeof text,
+                 "{'camera': {'eye': [%.9g, 2, 4], 'target': [%.9g, 0, 0], 'fov_deg': 0.01},'materials': [{'name': "
+                 "'m', 'kind': 'lambert', 'albedo': 0.9}],'shapes': [{'kind': 'plane', 'centre': [0, 0, 0], "
+                 "'normal': [0, 1, 0], 'material': 'm'}],'lights': [{%s, 'radiance': 2, 'visible': true}]}",
+                 x, x, light);
+        koksma_scene *scene = scene_of(text);
+        koksma_render_options options = options_of(scene, "n-rooks", i % 2 ? "path" : "distribution", 64, 8);
+        const double mean = mean_of(scene, &options, NULL), expected = 0.9 * cases[i / 2].reflected;
+        assert_near(mean, expected, cases[i / 2].off * expected);
+        koksma_scene_close(scene);
+    }
+}

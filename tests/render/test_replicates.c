@@ -1,39 +1,30 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Images with their standard errors: against the definition, and against an image of many samples. */
-#include <math.h>
-
-#include <koksma/render.h>
-
 #include "image/image.h"
-#include "test.h"
+#include "rendering.h"
 
 enum { WIDTH = 12, HEIGHT = 9, PIXELS = WIDTH * HEIGHT, R = 8 };
 
-static koksma_render_options options_of(const koksma_scene *scene, const char *pattern, int spp, uint64_t seed)
+static koksma_render_options options_for(const koksma_scene *scene, const char *pattern, int spp, uint64_t seed)
 {
-    koksma_render_options o;
-    koksma_render_options_init(&o, scene);
-    assert_int_equal(koksma_render_patterns(pattern, &o), KOKSMA_OK);
-    o.width = WIDTH;
+    koksma_render_options o = options_of(scene, pattern, "distribution", spp, WIDTH);
     o.height = HEIGHT;
-    o.spp = spp;
     o.seed = seed;
     return o;
 }
 
 TEST_CASE(mean_and_error_are_those_of_the_images)
 {
-    koksma_scene *scene;
     koksma_replicates found;
     koksma_image images[5];
-    assert_int_equal(koksma_scene_open("cornell", &scene), KOKSMA_OK);
-    koksma_render_options o = options_of(scene, "random", 4, 40);
+    koksma_scene *scene = shipped("cornell");
+    koksma_render_options o = options_for(scene, "random", 4, 40);
     const koksma_run run = {.threads = 3};
-    assert_int_equal(koksma_render_replicates(scene, &o, 5, &run, &found), KOKSMA_OK);
+    assert_ok(koksma_render_replicates(scene, &o, 5, &run, &found));
     assert_int_equal(found.replicates, 5);
     for (size_t r = 0; r < 5; r++) {
         o.seed = 40 + r;
-        assert_int_equal(koksma_render(scene, &o, NULL, &images[r]), KOKSMA_OK);
+        assert_ok(koksma_render(scene, &o, NULL, &images[r]));
         assert_int_equal(images[r].channels, found.error.channels);
     }
     double total = 0, square = 0;
@@ -77,22 +68,21 @@ TEST_CASE(mean_and_error_are_those_of_the_images)
    has. */
 TEST_CASE(intervals_hold_the_exact_image)
 {
-    koksma_scene *scene;
     koksma_image exact;
     const int runs = test_repeats(200, 2);
     static double squares[200], low[200], high[200];
     int pixels = 0, lit = 0, means = 0, pictures = 0;
     double truth = 0, square = 0;
-    assert_int_equal(koksma_scene_open("ball", &scene), KOKSMA_OK);
-    koksma_render_options o = options_of(scene, "sobol:scramble=owen", 1 << 16, 1);
-    assert_int_equal(koksma_render(scene, &o, NULL, &exact), KOKSMA_OK);
+    koksma_scene *scene = shipped("ball");
+    koksma_render_options o = options_for(scene, "sobol:scramble=owen", 1 << 16, 1);
+    assert_ok(koksma_render(scene, &o, NULL, &exact));
     for (size_t p = 0; p < PIXELS; p++) {
         truth += koksma__luminance(&exact, p) / PIXELS;
     }
     for (int run = 0; run < runs; run++) {
         koksma_replicates found;
-        o = options_of(scene, "random", 16, 1000 + R * (uint64_t)run);
-        assert_int_equal(koksma_render_replicates(scene, &o, R, NULL, &found), KOKSMA_OK);
+        o = options_for(scene, "random", 16, 1000 + R * (uint64_t)run);
+        assert_ok(koksma_render_replicates(scene, &o, R, NULL, &found));
         for (size_t p = 0; p < PIXELS; p++) {
             const double off = koksma__luminance(&found.image, p) - koksma__luminance(&exact, p);
             squares[run] += off * off / PIXELS;

@@ -77,6 +77,12 @@ static const float *matrix_at(const part *p, float time, float room[12])
     return room;
 }
 
+static const float *corner_of(const part *p, uint32_t triangle, int c)
+{
+    return (p->placed ? p->placed : p->mesh->vertices) +
+           3 * (size_t)p->mesh->indices[3 * (size_t)triangle + (size_t)c];
+}
+
 /* Prefetches a triangle's indices. Rays hit the triangles of a large mesh in an order that the processor cannot
    predict; therefore the data for a whole block of rays are prefetched before any of them are used. */
 static void fetch_triangle(const part *p, uint32_t triangle)
@@ -84,22 +90,14 @@ static void fetch_triangle(const part *p, uint32_t triangle)
     __builtin_prefetch(p->mesh->indices + 3 * (size_t)triangle);
 }
 
-static void fetch_corners(const part *p, uint32_t triangle)
-{
-    const uint32_t *index = p->mesh->indices + 3 * (size_t)triangle;
-    const float *vertices = p->placed ? p->placed : p->mesh->vertices;
-    for (int c = 0; c < 3; c++) {
-        __builtin_prefetch(vertices + 3 * (size_t)index[c]);
-    }
-}
-
 /* Prefetches the corners of the triangles hit. At this stage l->primitive[i] is the index of a part, or -1 for no
    hit. */
 static void fetch_landings(const part *parts, const koksma__landings *l, int n)
 {
     for (int i = 0; i < n; i++) {
-        if (l->primitive[i] >= 0) {
-            fetch_corners(&parts[l->primitive[i]], l->triangle[i]);
+        const part *p = l->primitive[i] < 0 ? NULL : &parts[l->primitive[i]];
+        for (int c = 0; p && c < 3; c++) {
+            __builtin_prefetch(corner_of(p, l->triangle[i], c));
         }
     }
 }
@@ -107,12 +105,10 @@ static void fetch_landings(const part *parts, const koksma__landings *l, int n)
 /* Copies triangle `triangle` of the part at this time into lane i. */
 static void set_lane(const part *p, uint32_t triangle, float time, int i, koksma__landings *l)
 {
-    const uint32_t *index = p->mesh->indices + 3 * (size_t)triangle;
-    const float *vertices = p->placed ? p->placed : p->mesh->vertices;
     float room[12];
     const float *matrix = matrix_at(p, time, room);
     for (int c = 0; c < 3; c++) {
-        const float *v = vertices + 3 * (size_t)index[c];
+        const float *v = corner_of(p, triangle, c);
         float moved[3];
         if (p->is_instance) {
             place(matrix, v, moved);
@@ -177,6 +173,15 @@ static bool smooth_normal(const part *p, const uint32_t *index, float time, cons
     return koksma__dot3(out, d) < 0;
 }
 
+/* The texture coordinates at these weights of the corners of a triangle. */
+static void coordinates_at(const koksma__mesh *mesh, const uint32_t *index, const float w[3], float uv[2])
+{
+    for (int c = 0; c < 3; c++) {
+        uv[0] += w[c] * mesh->uvs[2 * (size_t)index[c]];
+        uv[1] += w[c] * mesh->uvs[2 * (size_t)index[c] + 1];
+    }
+}
+
 /* Sets the normal and the texture coordinates of lane i, interpolated between the vertices of its triangle. */
 static void refine(const part *p, const koksma__landings *l, const koksma__rays *rays, int i, koksma__hits *hits)
 {
@@ -185,14 +190,15 @@ static void refine(const part *p, const koksma__landings *l, const koksma__rays 
     const float d[3] = {rays->d[0][i], rays->d[1][i], rays->d[2][i]},
                 n[3] = {hits->n[0][i], hits->n[1][i], hits->n[2][i]};
     float bent[3];
-    if (p->smooth && smooth_normal(p, index, p->steps ? rays->time[i] : 0, w, n, d, bent)) {
-        hits->n[0][i] = bent[0];
-        hits->n[1][i] = bent[1];
-        hits->n[2][i] = bent[2];
+    const bool bends = p->smooth && smooth_normal(p, index, p->steps ? rays->time[i] : 0, w, n, d, bent);
+    for (int k = 0; bends && k < 3; k++) {
+        hits->n[k][i] = bent[k];
     }
-    for (int c = 0; p->mesh->uvs && c < 3; c++) {
-        hits->u[i] += w[c] * p->mesh->uvs[2 * (size_t)index[c]];
-        hits->v[i] += w[c] * p->mesh->uvs[2 * (size_t)index[c] + 1];
+    if (p->mesh->uvs) {
+        float uv[2] = {0, 0};
+        coordinates_at(p->mesh, index, w, uv);
+        hits->u[i] = uv[0];
+        hits->v[i] = uv[1];
     }
 }
 
@@ -488,10 +494,7 @@ static bool is_there(const part *p, uint32_t t, float u, float v)
     if (map->image && p->mesh->uvs) {
         const float w[3] = {1 - u - v, u, v};
         float at[2] = {0, 0};
-        for (int c = 0; c < 3; c++) {
-            at[0] += w[c] * p->mesh->uvs[2 * (size_t)index[c]];
-            at[1] += w[c] * p->mesh->uvs[2 * (size_t)index[c] + 1];
-        }
+        coordinates_at(p->mesh, index, w, at);
         koksma__texture(map->image, &map->mapping, at[0], at[1], 1, alpha);
     }
     const float share = alpha[0] * (float)m->alpha;
@@ -715,11 +718,8 @@ static float list_part(embree *e, size_t i, koksma__batch_bundle *box)
     float beside = 0;
     for (size_t t = 0; t < p->mesh->n_triangles; t++) {
         koksma__batch_face *face = &e->few.faces[e->few.n];
-        const uint32_t *index = p->mesh->indices + 3 * t;
-        const float *corners[3];
-        for (int c = 0; c < 3; c++) {
-            corners[c] = p->placed + 3 * (size_t)index[c];
-        }
+        const float *const corners[3] = {corner_of(p, (uint32_t)t, 0), corner_of(p, (uint32_t)t, 1),
+                                         corner_of(p, (uint32_t)t, 2)};
         if (!HOST->face(corners[0], corners[1], corners[2], face)) {
             continue;
         }

@@ -5,10 +5,14 @@
  * the BSDF, cos and cos' are the cosines at the surface and at the light, and V is 1 where the light is visible and 0
  * elsewhere.
  */
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "core/capacity.h"
 #include "core/status.h"
 #include "render/integrators/integrators.h"
+#include "render/materials/materials.h"
 
 /*
  * The integrator `utah` computes local illumination. A surface reflects the scene's ambient light and the light from
@@ -74,10 +78,51 @@ static const koksma__integrator_flags direct = {.followed = KOKSMA__LOBE_SPECULA
  * Here V is 1 if the ray hits nothing at any distance. A(x) is a two-dimensional integral that depends only on
  * shapes: all surfaces are white and diffuse, and the shapes of lights are black. With more than one bounce (--depth)
  * light reflected by white surfaces is added. Source: Zhukov, Iones & Kronin 1998.
+ *
+ * The scene is replaced by one whose path-traced image is its ambient occlusion: all surfaces become white and diffuse,
+ * all lights become black, samples are not clamped, and the background has radiance 1. A direction sampled from a
+ * surface with the density cos / pi then contributes 1 if its ray leaves the scene and 0 if the ray hits anything. The
+ * shapes, the camera and the cached geometry remain those of the original scene.
  */
-static const koksma__integrator_flags ambient_occlusion = {.followed = KOKSMA__LOBE_DIFFUSE,
-                                                           .replace_scene = koksma__ambient_occlusion_scene,
-                                                           .release_scene = koksma__ambient_occlusion_release};
+static koksma_status open_occlusion(const koksma_scene *scene, koksma_scene **out)
+{
+    koksma_scene *copy = malloc(sizeof *copy);
+    *out = copy;
+    KOKSMA__REQUIRE_MEMORY(copy, sizeof *copy);
+    *copy = *scene;
+    copy->materials = calloc(scene->n_materials + 1, sizeof *copy->materials);
+    copy->lights = calloc(scene->n_lights + 1, sizeof *copy->lights);
+    if (!copy->materials || !copy->lights) {
+        return koksma__fail_memory(scene->n_materials * sizeof *copy->materials +
+                                   scene->n_lights * sizeof *copy->lights);
+    }
+    for (size_t i = 0; i < scene->n_materials; i++) {
+        koksma__material *m = &copy->materials[i];
+        m->bsdf = &koksma__bsdf_lambert;
+        m->albedo[0][0] = m->albedo[0][1] = m->albedo[0][2] = 1;
+    }
+    for (size_t i = 0; i < scene->n_lights; i++) { /* the lights' shapes remain and occlude */
+        koksma__light *l = &copy->lights[i];
+        *l = scene->lights[i];
+        memset(l->radiance, 0, sizeof l->radiance);
+        l->visible = false;
+    }
+    copy->medium.is_there = false;
+    copy->clamp = INFINITY; /* the scene's limit is one of its light */
+    for (int k = 0; k < 3; k++) {
+        copy->background[k] = 1;
+        copy->ambient[k] = 0;
+    }
+    return KOKSMA_OK;
+}
+
+static void release_occlusion(koksma_scene *scene)
+{
+    KOKSMA__FREE(scene->materials, scene->lights, scene);
+}
+
+static const koksma__integrator_flags ambient_occlusion = {
+    .followed = KOKSMA__LOBE_DIFFUSE, .replace_scene = open_occlusion, .release_scene = release_occlusion};
 
 /*
  * The integrator `path` is path tracing (Kajiya 1986), which samples one direction at each vertex. Lights are sampled

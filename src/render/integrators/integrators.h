@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * The flags and hooks by which an integrator controls the pipelines at each path vertex (integrators.c has the table of
- * integrators), and the hooks of those that need an algorithm beyond the flags.
+ * The flags and hooks by which an integrator controls the pipelines at each path vertex (integrators.c has the table).
  */
 #ifndef KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
 #define KOKSMA_RENDER_INTEGRATORS_INTEGRATORS_H
@@ -26,10 +25,5 @@ typedef struct koksma__integrator_flags {
     koksma_status (*replace_scene)(const koksma_scene *scene, koksma_scene **out);
     void (*release_scene)(koksma_scene *scene);
 } koksma__integrator_flags;
-
-/* Makes the scene that is rendered in place of `scene`. Errors: MEMORY; the caller must release *out even after an
-   error. */
-koksma_status koksma__ambient_occlusion_scene(const koksma_scene *scene, koksma_scene **out);
-void koksma__ambient_occlusion_release(koksma_scene *scene);
 
 #endif

@@ -13,53 +13,11 @@
  *     utah      both: the local model of Phong (1975), with albedo + reflectance <= 1
  *
  * Each term has a lobe with that density, and directions are sampled from either in proportion to its luminance; the
- * weight of a direction is the value divided by the density of the mixture. Images are shaded in blocks by
- * batch_materials.c; the functions below say for one ray what is right.
+ * weight of a direction is the value divided by the density of the mixture (batch_materials.c).
  */
 #include "render/materials/lobes.h"
 
 enum { REFLECTANCE, EXPONENT = 3 };
-
-/* The probability of sampling the Lambert part, of the requested lobes that the material has. */
-static float share(const koksma__surface *s, unsigned lobes)
-{
-    const bool diffuse = lobes & KOKSMA__LOBE_DIFFUSE, glossy = lobes & KOKSMA__LOBE_GLOSSY;
-    return diffuse && glossy ? s->material->derived : diffuse ? 1 : 0;
-}
-
-static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
-{
-    const koksma__v3 n = koksma__v3_of(s->n), out = koksma__v3_of(s->out);
-    lobes &= s->material->bsdf->lobes;
-    const float diffuse = lobes & KOKSMA__LOBE_DIFFUSE ? koksma__lambert_pdf(koksma__dot3(s->n, w)) : 0;
-    const float glossy =
-        lobes & KOKSMA__LOBE_GLOSSY ? koksma__lobe_pdf(n, out, s->material->values[EXPONENT], koksma__v3_of(w)) : 0;
-    for (int k = 0; k < 3; k++) {
-        value_out[k] += s->albedo[k] * diffuse + s->material->values[REFLECTANCE + k] * glossy;
-    }
-    const float part = share(s, lobes);
-    return part * diffuse + (1 - part) * glossy;
-}
-
-static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
-{
-    float all[3] = {0, 0, 0};
-    lobes &= s->material->bsdf->lobes;
-    if (choice < share(s, lobes)) {
-        koksma__cosine_direction(s->n, u, out->w);
-        out->lobe = KOKSMA__LOBE_DIFFUSE;
-    } else {
-        koksma__v3_to(koksma__lobe_direction(koksma__v3_of(s->n), koksma__v3_of(s->out),
-                                             s->material->values[EXPONENT], u[0], u[1]),
-                      out->w);
-        out->lobe = KOKSMA__LOBE_GLOSSY;
-    }
-    out->pdf = value(s, out->w, lobes, all);
-    for (int k = 0; k < 3; k++) {
-        out->weight[k] = out->pdf > 0 ? all[k] / out->pdf : 0;
-    }
-    return out->pdf > 0 && koksma__dot3(s->n, out->w) > 0; /* a direction below the surface is lost */
-}
 
 /* Sets the probability of the diffuse lobe, which is its share of the luminance. */
 static void prepare(koksma__shading_material *m)
@@ -91,8 +49,6 @@ const koksma__bsdf koksma__bsdf_lambert = {
     .is_lambert = true,
     .reciprocal = true,
     .form = KOKSMA__FORM_LAMBERT,
-    .value = value,
-    .sample = sample,
 };
 
 const koksma__bsdf koksma__bsdf_checker = {
@@ -102,8 +58,6 @@ const koksma__bsdf koksma__bsdf_checker = {
     .is_lambert = true,
     .reciprocal = true,
     .form = KOKSMA__FORM_LAMBERT,
-    .value = value,
-    .sample = sample,
 };
 
 const koksma__bsdf koksma__bsdf_phong = {
@@ -113,8 +67,6 @@ const koksma__bsdf koksma__bsdf_phong = {
              .parameters = parameters},
     .lobes = KOKSMA__LOBE_GLOSSY,
     .form = KOKSMA__FORM_LOBES,
-    .value = value,
-    .sample = sample,
 };
 
 const koksma__bsdf koksma__bsdf_utah = {
@@ -128,6 +80,4 @@ const koksma__bsdf koksma__bsdf_utah = {
     .prepare = prepare,
     .form = KOKSMA__FORM_LOBES,
     .takes_choice = true,
-    .value = value,
-    .sample = sample,
 };

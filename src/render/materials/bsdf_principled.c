@@ -17,7 +17,7 @@
 #include "render/materials/lobes.h"
 
 /* The reflectance F0 at normal incidence has three numbers (red, green, blue). prepare() sets these derived numbers;
-   images can change them and the roughness. koksma__coat of lobes.h has the formulas. */
+   images can change them and the roughness. batch_materials.c samples koksma__coat of lobes.h. */
 enum { F0, ROUGHNESS = 3, METALLIC, IOR };
 
 static float specular(const koksma__shading_material *m)
@@ -49,52 +49,6 @@ static void prepare(koksma__shading_material *m)
     divide(m, m->values[METALLIC], m->albedo[1], again);
 }
 
-static koksma__coat coat_of(const koksma__surface *s, unsigned lobes)
-{
-    const float *numbers = s->local ? s->local : s->material->values;
-    return koksma__coat_of((koksma__coat){.n = koksma__v3_of(s->n),
-                                          .out = koksma__v3_of(s->out),
-                                          .albedo = koksma__v3_of(s->albedo),
-                                          .reflectance = koksma__v3_of(numbers + F0),
-                                          .roughness = numbers[ROUGHNESS],
-                                          .coat = s->material->derived,
-                                          .diffuse = lobes & KOKSMA__LOBE_DIFFUSE ? 1 : 0,
-                                          .glossy = lobes & KOKSMA__LOBE_GLOSSY ? 1 : 0});
-}
-
-static float value(const koksma__surface *s, const float w[3], unsigned lobes, float value_out[3])
-{
-    const koksma__coat c = coat_of(s, lobes);
-    koksma__v3 found;
-    const float pdf = koksma__coat_value(&c, koksma__v3_of(w), &found);
-    value_out[0] += found.x;
-    value_out[1] += found.y;
-    value_out[2] += found.z;
-    return pdf;
-}
-
-static bool sample(const koksma__surface *s, unsigned lobes, const float u[2], float choice, koksma__scatter *out)
-{
-    const koksma__coat c = coat_of(s, lobes);
-    float all[3] = {0, 0, 0};
-    if (!(c.diffuse + c.glossy > 0)) {
-        return false;
-    }
-    if (choice < c.share) {
-        koksma__cosine_direction(s->n, u, out->w);
-        out->lobe = KOKSMA__LOBE_DIFFUSE;
-    } else {
-        const koksma__facets facets = koksma__facets_of(c.n, c.out, c.roughness);
-        koksma__v3_to(koksma__facet_direction(&facets, u[0], u[1]), out->w);
-        out->lobe = KOKSMA__LOBE_GLOSSY;
-    }
-    out->pdf = value(s, out->w, lobes, all);
-    for (int k = 0; k < 3; k++) {
-        out->weight[k] = out->pdf > 0 ? all[k] / out->pdf : 0;
-    }
-    return out->pdf > 0;
-}
-
 static const koksma__parameter parameters[] = {
     {"roughness", KOKSMA__NUMBER, .low = 1e-3, .high = 1, .at = KOKSMA__VALUE(ROUGHNESS)},
     {"metallic", KOKSMA__NUMBER, .high = 1, .optional = true, .fallback = 0, .at = KOKSMA__VALUE(METALLIC)},
@@ -112,7 +66,5 @@ const koksma__bsdf koksma__bsdf_principled = {
     .form = KOKSMA__FORM_COATED,
     .reciprocal = true,
     .prepare = prepare,
-    .value = value,
-    .sample = sample,
     .texture = texture,
 };

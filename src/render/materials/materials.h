@@ -59,10 +59,7 @@ typedef struct koksma__surface {
     float p[3], n[3]; /* n points to the side from which the surface is seen */
     float out[3];
     float albedo[3]; /* albedo of the diffuse part at this point */
-    /* the numbers that the kind's texture() computed for this point; NULL if the material has no texture or the kind
-       no texture() */
-    const float *local;
-    bool inside; /* whether the point is seen from inside a closed shape, or from the back of a flat one */
+    bool inside;     /* whether the point is seen from inside a closed shape, or from the back of a flat one */
     int32_t primitive;
 } koksma__surface;
 
@@ -87,7 +84,7 @@ typedef struct koksma__bsdf {
     const char *(*check)(const koksma__material *material);
     void (*prepare)(koksma__shading_material *material); /* NULL, or computes `derived` */
     /* Adds to `value` the BSDF times the cosine for light from w, over the requested lobes; returns the density with
-       which sample() chooses w among these lobes. */
+       which sample() chooses w among these lobes. NULL, as sample(): the kind has a form. */
     float (*value)(const koksma__surface *s, const float w[3], unsigned lobes, float value[3]);
     /* Samples a direction from the requested lobes: u selects the direction, `choice` the lobe. Returns false if no
        light arrives along the sampled direction, for example because it is below the surface. */

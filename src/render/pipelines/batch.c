@@ -30,7 +30,8 @@ const koksma__batch_table *koksma__batch_find(const char *isa)
     return koksma__kernels_find(isa) ? table_of(isa) : NULL;
 }
 
-const koksma__batch_table *koksma__batch(void) /* without a look at the processor, which a virtual machine makes slow */
+/* Without a look at the processor, which a virtual machine makes slow. */
+const koksma__batch_table *koksma__batch(void)
 {
     return table_of(koksma__kernels()->isa);
 }

@@ -58,8 +58,8 @@ INLINE void koksma__put(koksma__lanes *restrict to, int i, int mine, koksma__v3 
     to[2][i] = mine ? v.z : to[2][i];
 }
 
-/* Stores the hit of lane i, but for t and the primitive, where `mine`; on a surface of normal n, of which `side` is -1 where
-   the ray meets the back. */
+/* Stores the hit of lane i, but for t and the primitive, where `mine`; on a surface of normal n, of which `side` is -1
+   where the ray meets the back. */
 INLINE void koksma__put_hit(koksma__hits *restrict h, int i, int mine, koksma__v3 p, koksma__v3 n, float side,
                             float u, float v, int32_t material)
 {

@@ -43,8 +43,6 @@ typedef struct koksma__surfaces {
     _Alignas(64) koksma__lanes albedo[3];
     _Alignas(64) koksma__lanes parameters[4]; /* those of materials of the forms LOBES, FACETS and COATED */
     _Alignas(64) koksma__lanes derived;       /* koksma__shading_material.derived of the forms LOBES and COATED */
-    /* results of the BSDF's texture(), in the lanes whose material has images and whose BSDF has texture() */
-    float local[KOKSMA__BLOCK][KOKSMA__LOCAL];
 } koksma__surfaces;
 
 /* The values of BSDFs times the cosine, and their sampling densities. */
@@ -121,8 +119,6 @@ static inline koksma__surface koksma__surface_at(const koksma__surfaces *s, int 
                                .n = {h->n[0][i], h->n[1][i], h->n[2][i]},
                                .inside = h->back[i] != 0,
                                .primitive = h->primitive[i]};
-    const koksma__bsdf *bsdf = surface.material->bsdf;
-    surface.local = bsdf->texture && koksma__is_textured(surface.material) ? s->local[i] : NULL;
     for (int k = 0; k < 3; k++) {
         surface.out[k] = s->out[k][i];
         surface.albedo[k] = s->albedo[k][i];

@@ -303,7 +303,7 @@ static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
                          half ? 0.5f * (h->v[i] / (float)half[1] + 1) : h->v[i]};
     const koksma__mapping whole = {.wrap = {KOKSMA__WRAP_CLAMP, KOKSMA__WRAP_CLAMP}};
     float albedo[3] = {(float)m->from->albedo[0][0], (float)m->from->albedo[0][1], (float)m->from->albedo[0][2]},
-          factors[3] = {1, 1, 1};
+          factors[3] = {1, 1, 1}, local[KOKSMA__LOCAL];
     koksma__triangle triangle = {.colour = {1, 1, 1}};
     const bool found =
         !half && (m->from->tinted || normal->image) &&
@@ -318,9 +318,9 @@ static void add_texture(const koksma__frame *frame, koksma__vertices *v, int i)
         if (surface->image) {
             koksma__texture(surface->image, half ? &whole : &surface->mapping, at[0], at[1], 1, factors);
         }
-        m->bsdf->texture(m, factors + 1, albedo, v->surfaces.local[i]);
+        m->bsdf->texture(m, factors + 1, albedo, local);
         for (int k = 0; k < KOKSMA__LOCAL; k++) {
-            v->surfaces.parameters[k][i] = v->surfaces.local[i][k];
+            v->surfaces.parameters[k][i] = local[k];
         }
     }
     for (int k = 0; k < 3; k++) {
@@ -405,8 +405,8 @@ static koksma_status draw_directions(const koksma__trace *trace, const koksma__v
     return KOKSMA_OK;
 }
 
-/* From the fifth vertex on, Russian roulette ends some paths with weights below 1 and increases the weights of the survivors.
-   A path with a weight of 1 or more continues, because ending it would only add variance. */
+/* From the fifth vertex on, Russian roulette ends some paths with weights below 1 and increases the weights of the
+   survivors. A path with a weight of 1 or more continues, because ending it would only add variance. */
 static koksma_status scatter(const koksma__trace *trace, koksma__vertices *v)
 {
     const koksma__integrator_flags *flags = trace->frame->flags;

@@ -11,7 +11,6 @@
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
-#include "render/samples/uses.h"
 
 #define MAX_NUMBERS ((size_t)1 << 28) /* largest number of floats for the samples of an image: 1 GiB */
 

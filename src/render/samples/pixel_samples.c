@@ -21,7 +21,6 @@
 #include "kernels/kernels.h"
 #include "patterns/files/files.h"
 #include "patterns/masks/tile_size.h"
-#include "render/samples/uses.h"
 
 /* base of the keys for the random numbers of permutations, above the keys of all uses */
 enum { LANE_PAIRING = 1 << 20 };

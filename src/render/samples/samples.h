@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * The patterns that the options of a render assign to uses (uses.h), and the samplers, which provide the samples of each
- * pixel. The sample of a use is a pure function of (options, pixel, sample, bounce, use), independent of the order of
- * requests.
+ * pixel. The sample of a use is a pure function of (options,
+ * pixel, sample, bounce, use), independent of the order of requests.
  */
 #ifndef KOKSMA_RENDER_SAMPLES_SAMPLES_H
 #define KOKSMA_RENDER_SAMPLES_SAMPLES_H
@@ -73,8 +73,8 @@ typedef struct koksma__sampler {
 koksma_status koksma__sample_scratch_init(koksma__sample_scratch *room, const koksma__sampler *sampler);
 void koksma__sample_scratch_fini(koksma__sample_scratch *room);
 
-/* Stores the coordinates of a use, which begin at `first` in points of `dim`, as floats below 1; the second is 0 unless the use
-   has `two`. Sample i is point permutation[i], or point i if permutation is NULL. */
+/* Stores the coordinates of a use, which begin at `first` in points of `dim`, as floats below 1; the second is 0 unless
+   the use has `two`. Sample i is point permutation[i], or point i if permutation is NULL. */
 void koksma__keep_pairs(const double *xs, size_t n, int dim, int first, bool two, const uint32_t *permutation,
                         float *pairs);
 

@@ -14,7 +14,6 @@
 #include "core/status.h"
 #include "patterns/files/files.h"
 #include "patterns/masks/tile_size.h"
-#include "render/samples/uses.h"
 
 /* the most points of a tile that are tried before a render */
 #define MOST_TRIED ((size_t)1 << 22)

@@ -36,7 +36,6 @@
 #include "render/render.h"
 #include "render/samples/adaptive/adaptive.h"
 #include "render/samples/samples.h"
-#include "render/samples/uses.h"
 #include "render/vector3.h"
 #include "stats/stats.h"
 

@@ -4,10 +4,14 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/capacity.h"
+#include "core/lookup.h"
 #include "core/parallel.h"
+#include "core/spec.h"
 #include "core/status.h"
 #include "render/pipelines/pipelines.h"
 #include "render/render.h"
@@ -56,25 +60,6 @@ static koksma_status draw(const koksma__sampler *sampler, uint64_t pixel, uint32
 
 /* ---- One task of a round ---------------------------------------------------------------------------------- */
 
-static void keep_layers(const job *j, const koksma__values *v, size_t pixel, size_t first, size_t end)
-{
-    double sums[7] = {0};
-    size_t hits = 0;
-    for (size_t i = first; i < end; i++) {
-        for (size_t k = 0; k < 3; k++) {
-            sums[k] += (double)v->albedo[3 * i + k];
-            sums[3 + k] += (double)v->normal[3 * i + k];
-        }
-        sums[6] += (double)v->depth[i];
-        hits += v->depth[i] > 0;
-    }
-    for (size_t k = 0; k < 3; k++) {
-        j->layers->albedo.pixels[3 * pixel + k] = (float)(sums[k] / (double)(end - first));
-        j->layers->normal.pixels[3 * pixel + k] = (float)(sums[3 + k] / (double)(end - first));
-    }
-    j->layers->depth.pixels[pixel] = hits ? (float)(sums[6] / (double)hits) : 0;
-}
-
 /* Passes the values of a pixel to the method and asks for its next demand. */
 static void hand_over(const job *j, room *r, const koksma__group *group, size_t p)
 {
@@ -90,7 +75,7 @@ static void hand_over(const job *j, room *r, const koksma__group *group, size_t 
         return;
     }
     if (j->first) {
-        keep_layers(j, v, pixel, first, end);
+        koksma__film_add_surface(j->layers, v, pixel, first, end);
     }
     run->taken[pixel] += (uint32_t)(end - first);
     if (run->method->decide) {
@@ -434,4 +419,39 @@ koksma_status koksma_render_adaptive(const koksma_scene *scene, const koksma_ren
         *report = run.report;
     }
     return status;
+}
+
+/* ---- The table of methods, and their specs -------------------------------------------------------------- */
+
+static const koksma_adaptive *const table[] = {
+#define ADAPTIVE(name) &koksma__adaptive_##name,
+#include "render/samples/adaptive/adaptive.def"
+#undef ADAPTIVE
+};
+
+KOKSMA__LOOKUP(koksma_adaptive, table)
+KOKSMA__NAME_AT(koksma_adaptive)
+
+koksma_status koksma_adaptive_parse(const char *text, koksma_adaptive_options *out)
+{
+    KOKSMA__REQUIRE(text, out);
+    char name[64];
+    *out = (koksma_adaptive_options){0};
+    const size_t length = strcspn(text, ":");
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), text);
+    out->method = koksma_adaptive_find(name);
+    if (!out->method) {
+        return koksma__fail_unknown("adaptive method", name, koksma_adaptive_name_at, NULL,
+                                    "'koksma list adaptive' names them");
+    }
+    return koksma__params_parse(name, out->method->params, text[length] ? text + length + 1 : "", out->params);
+}
+
+void koksma_adaptive_text(const koksma_adaptive_options *options, char *text)
+{
+    KOKSMA__REQUIRE_OR(, options, text);
+    KOKSMA__REQUIRE_OR(, options->method);
+    KOKSMA__REQUIRE_OR(, options->method->name);
+    snprintf(text, KOKSMA_MAX_SPEC, "%s", options->method->name);
+    koksma__params_text(options->method->params, options->params, text, KOKSMA_MAX_SPEC);
 }
