@@ -568,7 +568,7 @@ const cli_command cli_command_render = {
                 "[--adaptive METHOD [--budget SPP]] -o FILE",
     .details =
         "SCENE is a name from 'koksma list scenes', a JSON file (docs/scenes.md), a mesh file (.obj, .ply, "
-        ".ply.gz, .off, .gltf, .glb, .serialized), or a scene of pbrt-v4 (.pbrt) or Mitsuba 3 (.xml).\n"
+        ".ply.gz, .gltf, .glb, .serialized), or a scene of pbrt-v4 (.pbrt) or Mitsuba 3 (.xml).\n"
         "\n"
         "A use is a purpose for which a sample needs one or two dimensions, such as the position on the lens; see "
         "'koksma list uses'. Each use has its own point set in every pixel. --pairing combines them: 'shuffled' by "

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Mutator: fuzz/mutate_words.c */
-/* A mesh file or another renderer's scene: the first line is the ending of its name (.obj .ply .ply.gz .off .gltf
+/* A mesh file or another renderer's scene: the first line is the ending of its name (.obj .ply .ply.gz .gltf
    .glb .serialized .pbrt .xml), the rest the file. */
 #include <fcntl.h>
 #include <stdio.h>
@@ -22,8 +22,7 @@ static const char *place(void)
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
-    static const char *const endings[] = {".obj", ".ply",        ".ply.gz", ".off", ".gltf",
-                                          ".glb", ".serialized", ".pbrt",   ".xml"};
+    static const char *const endings[] = {".obj", ".ply", ".ply.gz", ".gltf", ".glb", ".serialized", ".pbrt", ".xml"};
     char path[80];
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
         const size_t length = strlen(endings[i]);

@@ -3,6 +3,8 @@
 #ifndef KOKSMA_TESTS_MESHES_H
 #define KOKSMA_TESTS_MESHES_H
 
+#include <math.h>
+
 #include <koksma/render.h>
 
 #include "test.h"
@@ -13,6 +15,30 @@ static inline void need_meshes(void)
     if (!koksma_mesh_tracer()) {
         skip();
     }
+}
+
+/* The picture of a scene, side x side pixels. */
+static inline koksma_image picture_of(const koksma_scene *scene, const char *integrator, const char *pattern, int spp,
+                                      int side, int threads)
+{
+    koksma_render_options options;
+    koksma_image image;
+    const koksma_run run = {.threads = threads};
+    koksma_render_options_init(&options, scene);
+    options.width = options.height = side;
+    options.spp = spp;
+    options.integrator = koksma_integrator_find(integrator);
+    assert_ok(koksma_pattern_spec(pattern, &options.pattern));
+    assert_ok(koksma_render(scene, &options, &run, &image));
+    return image;
+}
+
+/* The form factor from a small patch to a parallel rectangle of a x b at distance 1, one corner above the patch
+   (Howell's catalogue, B-3). */
+static inline double corner_factor(double a, double b)
+{
+    const double p = sqrt(1 + a * a), q = sqrt(1 + b * b);
+    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * M_PI);
 }
 
 #endif

@@ -50,7 +50,7 @@ KOKSMA_API bool koksma_scene_kind_at(const char *member, size_t i, koksma_entry 
 KOKSMA_API bool koksma_pipeline_at(size_t i, koksma_entry *out);
 
 /* Opens a scene of the library or a scene file.
-     name_or_path  the name of a scene in the library, or a path: of a mesh if it ends in .obj, .ply, .ply.gz, .off,
+     name_or_path  the name of a scene in the library, or a path: of a mesh if it ends in .obj, .ply, .ply.gz,
                    .gltf, .glb or .serialized, of a pbrt-v4 scene if it ends in .pbrt, of a Mitsuba 3 scene if it ends
                    in .xml, of a JSON scene if it ends in .json or else contains a '/'
      out           receives the scene, which koksma_scene_close frees. A scene is read-only: threads may share it

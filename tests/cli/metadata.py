@@ -182,7 +182,7 @@ def pointers():
     """A Git LFS pointer is named as such by every reader of files."""
     pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:" + "4d7a" * 16 + "\nsize 12345\n"
     put("one.pfm", b"Pf\n1 1\n-1.0\n\x00\x00\x00\x3f")
-    lines = [(name, ("scene", "check", "./" + name)) for name in ("a.obj", "a.ply", "a.off", "a.gltf", "a.glb", "a.json", "a.pbrt")]
+    lines = [(name, ("scene", "check", "./" + name)) for name in ("a.obj", "a.ply", "a.gltf", "a.glb", "a.json", "a.pbrt")]
     lines += [(name, ("measure", name, "-m", "star")) for name in ("a.txt", "a.npy", "a.csv")]
     lines += [(name, ("compare", name, "one.pfm")) for name in ("a.exr", "a.png", "a.pfm", "a.jpg")]
     lines += [("a.vec", ("generate", "lattice-file:a.vec", "-n", "4")), ("a.mat", ("generate", "net-file:a.mat", "-n", "4")),

@@ -123,7 +123,6 @@ def named_by_files(folder):
         ("TEXTURE", ".png", "glTF image", lambda name: ["scene", "check", model(folder, gltf(image=name))]),
         ("MESH", ".obj", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
         ("MESH", ".ply", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
-        ("MESH", ".off", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
         ("MESH", ".gltf", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
         ("MESH", ".glb", "mesh", lambda name: in_scene(shape={"kind": "mesh", "file": name, "material": "m"})),
         ("MATERIALS", ".mtl", "mtllib",

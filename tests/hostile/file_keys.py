@@ -78,10 +78,6 @@ def ply(size):
             + "".join(f"{x} {y} {z}\n" for x, y, z in corners(size)) + "4 0 1 2 3\n").encode()
 
 
-def off(size):
-    return ("OFF\n4 1 0\n" + "".join(f"{x} {y} {z}\n" for x, y, z in corners(size)) + "4 0 1 2 3\n").encode()
-
-
 def packed_mesh(size):
     return serialized([struct.pack("<I", 0x1000) + b"m\0" + struct.pack("<QQ", 4, 2)
                        + b"".join(struct.pack("<3f", *corner) for corner in corners(size))
@@ -158,7 +154,7 @@ def bitmap(name):
     return f'<texture name="reflectance" type="bitmap"><string name="filename" value="{name}"/></texture>'
 
 
-MESHES = {".obj": sizes(obj), ".ply": sizes(ply), ".ply.gz": sizes(lambda size: gz(ply(size))), ".off": sizes(off),
+MESHES = {".obj": sizes(obj), ".ply": sizes(ply), ".ply.gz": sizes(lambda size: gz(ply(size))),
           ".glb": sizes(glb), ".serialized": sizes(packed_mesh),
           ".gltf": tuple(gltf("data:;base64," + base64.b64encode(buffer(size)).decode()) for size in (0.5, 0.5078125, 1))}
 SQUARE = {"b.bin": buffer(1)}

@@ -21,7 +21,7 @@ only() {
   for file in $others; do complain "$file includes <$1; only $2 may"; done
 }
 only 'png\.h' src/files/image/png.c
-only 'zlib\.h' src/files/meshes/inflate.c
+only 'zlib\.h' src/files/meshes/mesh_serialized.c
 only 'openexr\.h' src/files/image/exr_openexr.c
 only 'OpenEXR/' src/files/image/exr_openexr.c
 only 'jpeglib\.h' src/files/image/jpeg_turbo.c

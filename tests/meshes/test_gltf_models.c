@@ -78,14 +78,8 @@ static void write_model(const char *path, const model *m)
 static void look(const char *path, double rgb[3], char *warnings, size_t size)
 {
     koksma_scene *scene;
-    koksma_render_options options;
-    koksma_image image;
     assert_ok(koksma_scene_open(path, &scene));
-    koksma_render_options_init(&options, scene);
-    options.width = options.height = options.spp = 1;
-    options.integrator = koksma_integrator_find("distribution");
-    assert_ok(koksma_pattern_spec("random", &options.pattern));
-    assert_ok(koksma_render(scene, &options, NULL, &image));
+    koksma_image image = picture_of(scene, "distribution", "random", 1, 1, 0);
     for (int k = 0; k < 3; k++) {
         rgb[k] = (double)image.pixels[k % image.channels];
     }

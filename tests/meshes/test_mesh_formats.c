@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Triangles, normals and texture coordinates that the formats' specifications say a file has: Wavefront's "Advanced
-   Visualizer Manual" (OBJ), Turk's "The PLY Polygon File Format", Geomview's OFF page, Khronos' glTF 2.0, Mitsuba's
+   Visualizer Manual" (OBJ), Turk's "The PLY Polygon File Format", Khronos' glTF 2.0, Mitsuba's
    documentation of its plug-in "serialized". Numbers are exact: those of the files are few bits long.
    Long because it has the files of all formats. */
 #include <math.h>
@@ -285,23 +285,6 @@ TEST_CASE(wedges_of_ply_are_of_vertices)
     assert_string_equal(koksma__file_material_at(&file, 0)->colour_map.name, "my wood.png");
     koksma__mesh_file_fini(&file);
     unlink("wedge.ply");
-}
-
-/* Geomview's square pyramid of polygons with colours behind them, and comments. */
-TEST_CASE(a_pyramid_in_off)
-{
-    static const float places[5][3] = {{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}, {0, 0, 1.5f}};
-    static const int corners[18] = {3, 2, 1, 3, 1, 0, 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
-    float wanted[18][3];
-    for (int i = 0; i < 18; i++) {
-        memcpy(wanted[i], places[corners[i]], sizeof *wanted);
-    }
-    test_write("pyramid.off",
-               "# a pyramid\nOFF\n5 5 8 # counts\n\n1 1 0\n-1 1 0 # second\n-1. -1 .0\n1e0 -10E-1 0 0.5 0.5 1\n"
-               "+0 -0 1.5\n4 3 2 1 0 255 0 0\n3 0 1 4\n  3\t1 2 4\n# none\n3 2 3 4 0.5\r\n3 3 0 4");
-    koksma__mesh mesh = read_mesh("pyramid.off", 18, wanted);
-    assert_int_equal(mesh.n_vertices, 5);
-    koksma__mesh_fini(&mesh);
 }
 
 /* Numbers of text are the nearest floats: beside libc's strtof, which is exact, at random and halfway between two. */

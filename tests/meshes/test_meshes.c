@@ -26,16 +26,7 @@ static koksma_scene *scene_of(const char *text)
 
 static koksma_image render_by(const koksma_scene *scene, const char *integrator, int spp, int side, int threads)
 {
-    koksma_render_options options;
-    koksma_image image;
-    const koksma_run run = {.threads = threads};
-    koksma_render_options_init(&options, scene);
-    options.width = options.height = side;
-    options.spp = spp;
-    options.integrator = koksma_integrator_find(integrator);
-    assert_ok(koksma_pattern_spec("jittered", &options.pattern));
-    assert_ok(koksma_render(scene, &options, &run, &image));
-    return image;
+    return picture_of(scene, integrator, "jittered", spp, side, threads);
 }
 
 static size_t count_meshes(const char *text)
@@ -280,14 +271,6 @@ static double pixel(const char *text, const char *integrator)
     koksma_image_fini(&image);
     koksma_scene_close(scene);
     return value;
-}
-
-/* The form factor from a small patch to a parallel rectangle of a x b at distance 1, one corner above the patch
-   (Howell's catalogue, B-3). */
-static double corner_factor(double a, double b)
-{
-    const double p = sqrt(1 + a * a), q = sqrt(1 + b * b);
-    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * M_PI);
 }
 
 #define PATCH                                                                                                        \

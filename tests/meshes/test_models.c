@@ -13,18 +13,11 @@
 static double mean(const char *scene_text, const char *path, const char *integrator, int side, int spp)
 {
     koksma_scene *scene;
-    koksma_render_options options;
-    koksma_image image;
     if (scene_text) {
         test_write("test_models.json", scene_text);
     }
     assert_ok(koksma_scene_open(scene_text ? "./test_models.json" : path, &scene));
-    koksma_render_options_init(&options, scene);
-    options.width = options.height = side;
-    options.spp = spp;
-    options.integrator = koksma_integrator_find(integrator);
-    assert_ok(koksma_pattern_spec("jittered", &options.pattern));
-    assert_ok(koksma_render(scene, &options, NULL, &image));
+    koksma_image image = picture_of(scene, integrator, "jittered", spp, side, 0);
     double sum = 0;
     for (int i = 0; i < side * side; i++) {
         sum += (double)image.pixels[i * image.channels] / (side * side);
@@ -33,14 +26,6 @@ static double mean(const char *scene_text, const char *path, const char *integra
     koksma_scene_close(scene);
     unlink("test_models.json");
     return sum;
-}
-
-/* The form factor from a small patch to a parallel rectangle of a x b at distance 1, one corner above the patch
-   (Howell's catalogue, B-3). */
-static double corner_factor(double a, double b)
-{
-    const double p = sqrt(1 + a * a), q = sqrt(1 + b * b);
-    return (a / p * atan(b / p) + b / q * atan(a / q)) / (2 * M_PI);
 }
 
 #define LIT(light)                                                                                                   \

@@ -429,14 +429,14 @@ TEST_CASE(lanes_are_alike)
    lie beside all others) is dark nowhere between shapes and lights. */
 TEST_CASE(geometries_agree)
 {
-    static const char *const file = "koksma-test-shape.off";
-    test_write(file, "OFF\n3 1 0\n900 900 900\n901 900 900\n900 901 900\n3 0 1 2\n");
+    static const char *const file = "koksma-test-shape.obj";
+    test_write(file, "v 900 900 900\nv 901 900 900\nv 900 901 900\nf 1 2 3\n");
     const bool embree = koksma_mesh_tracer() != NULL;
     for (size_t kind = 0; koksma__shape_types[kind]; kind++) {
         for (uint64_t trial = 0; koksma__shape_types[kind]->hit && trial < TRIALS; trial++) {
             koksma_scene *scene =
                 scene_with(koksma__shape_types[kind], 100 * kind + trial,
-                           embree ? ", {'kind': 'mesh', 'file': 'koksma-test-shape.off', 'material': 'm'}" : "");
+                           embree ? ", {'kind': 'mesh', 'file': 'koksma-test-shape.obj', 'material': 'm'}" : "");
             koksma__geometry plain, both;
             koksma__rays rays;
             koksma__hits a = {0}, b = {0};

@@ -24,13 +24,13 @@ enum { TRIALS = test_repeats(12, 3), SAMPLES = 16384, SIDE = 128, FUNCTIONS = 9,
     "-2, 0], 'normal': [0, 1, 0], 'material': 'm'}"
 
 /* A tetrahedron for luminous meshes, which no object of "lights" makes. */
-static const char *const tetrahedron = "koksma-test-light.off";
+static const char *const tetrahedron = "koksma-test-light.obj";
 
 static bool write_tetrahedron(void)
 {
     FILE *file = fopen(tetrahedron, "w");
     assert_non_null(file);
-    fputs("OFF\n4 4 0\n0 0.5 0\n0.5 0 0\n-0.4 0 0.5\n-0.3 -0.1 -0.5\n3 0 2 1\n3 0 3 2\n3 0 1 3\n3 1 2 3\n", file);
+    fputs("v 0 0.5 0\nv 0.5 0 0\nv -0.4 0 0.5\nv -0.3 -0.1 -0.5\nf 1 3 2\nf 1 4 3\nf 1 2 4\nf 2 3 4\n", file);
     return fclose(file) == 0;
 }
 

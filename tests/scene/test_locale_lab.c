@@ -88,7 +88,7 @@ static const char gltf[] =
 /* Mesh files. */
 static void make_models(FILE *out)
 {
-    static const char *const names[] = {"model.obj", "model.ply", "model.off", "model.gltf"};
+    static const char *const names[] = {"model.obj", "model.ply", "model.gltf"};
     static const float corners[9] = {-0.5F, -0.5F, 0, 0.5F, -0.25F, 0.25F, 0.125F, 0.75F, 0};
     char path[192];
     path_of("triangle.bin", path);
@@ -97,7 +97,6 @@ static void make_models(FILE *out)
     write_text("model.obj",
                "mtllib model.mtl\nv -0.5 -0.5 0\nv 0.5 -2.5e-1 0.25\nv 0.125 0.75 0\nusemtl a\nf 1 2 3\n");
     write_text("model.ply", PLY "-0.5 -0.5 0\n0.5 -0.25 0.25\n0.125 0.75 0\n3 0 1 2\n");
-    write_text("model.off", "OFF\n3 1 0\n-0.5 -0.5 0\n0.5 -0.25 0.25\n0.125 0.75 0\n3 0 1 2\n");
     write_text("model.gltf", gltf);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         koksma_scene *scene;

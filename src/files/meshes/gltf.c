@@ -43,6 +43,13 @@ bool koksma__gltf_find(const field *from, const char *path, field *out)
     return true;
 }
 
+size_t koksma__gltf_index(const field *object, const char *key, size_t otherwise)
+{
+    long long number = (long long)otherwise;
+    (void)koksma__json_get_whole(object, key, false, 0, KOKSMA__GLTF_ITEMS, &number);
+    return (size_t)number;
+}
+
 koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i)
 {
     return koksma__json_item(&g->lists[which], i);
@@ -60,14 +67,8 @@ static int base64_value(char c)
 /* Gives the bytes to the koksma__mesh_file, which frees them when it is closed. */
 static koksma_status keep(koksma__gltf *g, unsigned char *bytes, size_t size, koksma__gltf_bytes *out)
 {
-    unsigned char **kept = koksma__list_add(&g->out->owned, 1, sizeof *kept);
-    if (!kept) {
-        free(bytes);
-        return KOKSMA_MEMORY;
-    }
-    *kept = bytes;
     *out = (koksma__gltf_bytes){bytes, size};
-    return KOKSMA_OK;
+    return koksma__file_keep(g->out, bytes);
 }
 
 /* RFC 4648, section 4. */
@@ -166,12 +167,12 @@ koksma_status koksma__gltf_view_bytes(const koksma__gltf *g, size_t view, koksma
 }
 
 koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const field *object, const char *key,
-                                       koksma__gltf_elements *out, long long *number)
+                                       koksma__gltf_elements *out, size_t *number)
 {
     koksma__gltf_bytes bytes = {0};
     *out = (koksma__gltf_elements){0};
-    KOKSMA__TRY(koksma__json_get_whole(object, key, true, 0, KOKSMA__GLTF_ITEMS, number));
-    const field f = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, (size_t)*number);
+    *number = koksma__gltf_index(object, key, 0);
+    const field f = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, *number);
     const koksma__gltf_elements *e = &g->accessors[*number];
     KOKSMA__JSON_FAIL_IF(!e->view, &f, "no bufferView: its elements are all 0");
     KOKSMA__TRY(koksma__gltf_view_bytes(g, e->view - 1, &bytes));

@@ -74,6 +74,9 @@ koksma_status koksma__gltf_list(const koksma__json_node *object, const char *key
 /* Item i of the list `which` of the root object; i must be in range. */
 koksma__json_node koksma__gltf_item(const koksma__gltf *g, int which, size_t i);
 
+/* The index that the member `key` of an object is, which gltf_schema.c has checked; `otherwise` where there is none. */
+size_t koksma__gltf_index(const koksma__json_node *object, const char *key, size_t otherwise);
+
 /* Follows a path of keys, "extensions/KHR_materials_ior", into nested objects. Returns false if a key is missing. */
 bool koksma__gltf_find(const koksma__json_node *from, const char *path, koksma__json_node *out);
 
@@ -88,9 +91,9 @@ koksma_status koksma__gltf_decode(koksma__gltf *g, const koksma__json_node *f, c
 /* The bytes of a buffer view. Errors: MALFORMED (its buffer is missing). */
 koksma_status koksma__gltf_view_bytes(const koksma__gltf *g, size_t view, koksma__gltf_bytes *out);
 
-/* The accessor whose index is the member `key` of the object. Errors: MALFORMED. */
+/* The accessor whose index, *number, is the member `key` of the object. Errors: MALFORMED. */
 koksma_status koksma__gltf_elements_at(const koksma__gltf *g, const koksma__json_node *object, const char *key,
-                                       koksma__gltf_elements *out, long long *number);
+                                       koksma__gltf_elements *out, size_t *number);
 
 /* Size of a component in bytes; 0: there is no such type. */
 size_t koksma__gltf_component_size(int component);

@@ -7,7 +7,6 @@
 #include "meshes/gltf.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/capacity.h"
@@ -37,10 +36,8 @@ static koksma_status split(const char *path, koksma__gltf_bytes *text, koksma__g
     KOKSMA__FAIL_IF(number_at(file + 8) != size ||
                         (next < size && (size - next < 8 || number_at(file + next) > size - next - 8)),
                     KOKSMA_MALFORMED, "%s: the lengths of its chunks do not add up to the length of the file", path);
-    if (next < size && text->size % 4) { /* glTF 2.0, section 4.4.3.1 */
-        return koksma__fail(KOKSMA_MALFORMED, "%s: its first chunk has %zu bytes, which is not a multiple of 4", path,
-                            text->size);
-    }
+    KOKSMA__FAIL_IF(next < size && text->size % 4, KOKSMA_MALFORMED, /* glTF 2.0, section 4.4.3.1 */
+                    "%s: its first chunk has %zu bytes, which is not a multiple of 4", path, text->size);
     if (next < size && !memcmp(file + next + 4, "BIN", 4)) {
         *binary = (koksma__gltf_bytes){file + next + 8, number_at(file + next)};
     }

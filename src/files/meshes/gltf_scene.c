@@ -51,11 +51,11 @@ static koksma_status own_matrix(koksma__gltf *g, const field *node, double out[1
 {
     double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (koksma__json_has(node, "matrix")) {
-        const koksma_status status = koksma__json_get_numbers(node, "matrix", true, -WIDEST, WIDEST, 16, m);
-        for (int i = 0; !status && i < 12; i++) {
+        KOKSMA__TRY(koksma__json_get_numbers(node, "matrix", true, -WIDEST, WIDEST, 16, m));
+        for (int i = 0; i < 12; i++) {
             out[i] = m[4 * (i % 4) + i / 4];
         }
-        return status;
+        return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__json_get_numbers(node, "translation", false, -WIDEST, WIDEST, 3, t));
     KOKSMA__TRY(koksma__json_get_numbers(node, "rotation", false, -WIDEST, WIDEST, 4, q));
@@ -80,6 +80,7 @@ static koksma_status walk_node(graph *s, size_t i, const double parent[12], int 
 {
     koksma__gltf *g = s->g;
     const field node = koksma__gltf_item(g, KOKSMA__GLTF_NODES, i);
+    const size_t mesh = koksma__gltf_index(&node, "mesh", SIZE_MAX >> 1);
     field list;
     size_t n = 0;
     long long number = 0;
@@ -89,11 +90,11 @@ static koksma_status walk_node(graph *s, size_t i, const double parent[12], int 
     s->shown[i] = true;
     KOKSMA__TRY(own_matrix(g, &node, own));
     koksma__matrix_multiply(parent, own, s->matrices[i]);
-    if (koksma__json_has(&node, "mesh")) {
+    if (mesh < g->n[KOKSMA__GLTF_MESHES]) {
         koksma__file_placement *to = koksma__list_add(&g->shown, 1, sizeof *to);
-        KOKSMA__TRY(to ? koksma__json_get_whole(&node, "mesh", true, 0, KOKSMA__GLTF_ITEMS, &number) : KOKSMA_MEMORY);
-        to->mesh = (size_t)number;
-        g->mesh_shown[number] = true;
+        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+        to->mesh = mesh;
+        g->mesh_shown[mesh] = true;
         memcpy(to->matrix, s->matrices[i], sizeof to->matrix);
     }
     KOKSMA__TRY(koksma__gltf_list(&node, "children", &list, &n));
@@ -108,19 +109,17 @@ static koksma_status walk_node(graph *s, size_t i, const double parent[12], int 
 /* Visits the scene that the file names as its default, or else its first scene. */
 static koksma_status walk_scene(graph *s)
 {
-    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     koksma__gltf *g = s->g;
     field list;
-    long long scene = 0, number = 0;
+    long long number = 0;
     size_t n = 0;
-    KOKSMA__TRY(koksma__json_get_whole(&g->root, "scene", false, 0, KOKSMA__GLTF_ITEMS, &scene));
     KOKSMA__JSON_FAIL_IF(!g->n[KOKSMA__GLTF_SCENES], &g->root, "the file has no scenes: nothing is shown");
-    const field shown = koksma__gltf_item(g, KOKSMA__GLTF_SCENES, (size_t)scene);
+    const field shown = koksma__gltf_item(g, KOKSMA__GLTF_SCENES, koksma__gltf_index(&g->root, "scene", 0));
     KOKSMA__TRY(koksma__gltf_list(&shown, "nodes", &list, &n));
     for (size_t i = 0; i < n; i++) {
         const field item = koksma__json_item(&list, i);
         KOKSMA__TRY(koksma__json_whole(&item, 0, KOKSMA__GLTF_ITEMS, &number));
-        KOKSMA__TRY(walk_node(s, (size_t)number, identity, 0));
+        KOKSMA__TRY(walk_node(s, (size_t)number, koksma__identity_matrix, 0));
     }
     return KOKSMA_OK;
 }
@@ -152,54 +151,52 @@ static koksma_status take_light(const graph *s, size_t i, const field *node)
     if (!koksma__gltf_find(node, punctual, &found) || !koksma__json_has(&found, "light")) {
         return KOKSMA_OK;
     }
-    koksma_status status = koksma__json_get_whole(&found, "light", true, 0, KOKSMA__GLTF_ITEMS, &number);
-    KOKSMA__JSON_FAIL_IF(!status && (size_t)number >= s->n_lights, &found, "light %lld of %zu lights does not exist",
-                         number, s->n_lights);
-    if (status || !s->shown[i]) {
-        return status;
+    KOKSMA__TRY(koksma__json_get_whole(&found, "light", true, 0, KOKSMA__GLTF_ITEMS, &number));
+    KOKSMA__JSON_FAIL_IF((size_t)number >= s->n_lights, &found, "light %lld of %zu lights does not exist", number,
+                         s->n_lights);
+    if (!s->shown[i]) {
+        return KOKSMA_OK;
     }
     koksma__file_light *light = koksma__list_add(&s->g->out->lights, 1, sizeof *light);
     KOKSMA__TRY(light ? KOKSMA_OK : KOKSMA_MEMORY);
     const field from = koksma__json_item(&s->lights, (size_t)number);
-    status = koksma__json_get_text(&from, "type", true, &type);
-    status = status ? status : koksma__json_get_number(&from, "intensity", false, 0, WIDEST, &intensity);
-    status = status ? status : koksma__json_get_numbers(&from, "color", false, 0, WIDEST, 3, colour);
+    KOKSMA__TRY(koksma__json_get_text(&from, "type", true, &type));
+    KOKSMA__TRY(koksma__json_get_number(&from, "intensity", false, 0, WIDEST, &intensity));
+    KOKSMA__TRY(koksma__json_get_numbers(&from, "color", false, 0, WIDEST, 3, colour));
     light->far_away = !strcmp(type, "directional");
-    KOKSMA__JSON_FAIL_IF(!status && !light->far_away && strcmp(type, "point") != 0 && strcmp(type, "spot") != 0,
-                         &from, "lights of type '%.32s' can't be read", type);
     light->is_spot = !strcmp(type, "spot");
-    status = status || !light->is_spot ? status : take_cone(&from, light);
+    KOKSMA__JSON_FAIL_IF(!light->far_away && !light->is_spot && strcmp(type, "point") != 0, &from,
+                         "lights of type '%.32s' can't be read", type);
     for (int k = 0; k < 3; k++) {
         light->colour[k] = intensity * colour[k];
     }
     memcpy(light->matrix, s->matrices[i], sizeof light->matrix);
-    return status;
+    return light->is_spot ? take_cone(&from, light) : KOKSMA_OK;
 }
 
 /* Takes the perspective camera of the first node that has one. */
 static koksma_status take_camera(const graph *s)
 {
     koksma__gltf *g = s->g;
-    long long best = (long long)g->n[KOKSMA__GLTF_CAMERAS];
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i < g->n[KOKSMA__GLTF_NODES]; i++) {
-        long long number = best;
+    size_t best = g->n[KOKSMA__GLTF_CAMERAS];
+    for (size_t i = 0; i < g->n[KOKSMA__GLTF_NODES]; i++) {
         field found;
         const field node = koksma__gltf_item(g, KOKSMA__GLTF_NODES, i);
-        status = koksma__json_get_whole(&node, "camera", false, 0, KOKSMA__GLTF_ITEMS, &number);
-        if (!status && number < best && s->shown[i]) {
-            const field camera = koksma__gltf_item(g, KOKSMA__GLTF_CAMERAS, (size_t)number);
-            if (koksma__gltf_find(&camera, "perspective", &found)) {
-                best = number;
-                memcpy(g->out->camera, s->matrices[i], sizeof g->out->camera);
-                double *yfov = &g->out->yfov_rad;
-                status = koksma__json_get_number(&found, "yfov", true, -WIDEST, WIDEST, yfov);
-                KOKSMA__JSON_FAIL_IF(!status && !(*yfov >= 0 && *yfov <= M_PI), &found,
-                                     "yfov: it is in radians, 0 to 3.1416, not %g", *yfov);
-            }
+        const size_t number = koksma__gltf_index(&node, "camera", best);
+        if (number >= best || !s->shown[i]) {
+            continue;
+        }
+        const field camera = koksma__gltf_item(g, KOKSMA__GLTF_CAMERAS, number);
+        if (koksma__gltf_find(&camera, "perspective", &found)) {
+            best = number;
+            memcpy(g->out->camera, s->matrices[i], sizeof g->out->camera);
+            double *yfov = &g->out->yfov_rad;
+            KOKSMA__TRY(koksma__json_get_number(&found, "yfov", true, -WIDEST, WIDEST, yfov));
+            KOKSMA__JSON_FAIL_IF(!(*yfov >= 0 && *yfov <= M_PI), &found,
+                                 "yfov: it is in radians, 0 to 3.1416, not %g", *yfov);
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 static koksma_status read_nodes(koksma__gltf *g)
@@ -254,15 +251,15 @@ static int uv_set(const koksma__gltf *g, size_t material)
 
 typedef struct primitive {
     koksma__gltf_elements positions, normals, uvs, colours, indices; /* n is 0 for an attribute that is missing */
-    /* material: index of the material, or the number of materials if the primitive has none */
-    long long mode, material;
+    long long mode;
+    size_t material; /* the number of materials if the primitive has none */
 } primitive;
 
 /* Reads the attribute `key`, if it exists: `width` components for each of n vertices, or, if `wide`, width + 1. */
 static koksma_status take_attribute(const koksma__gltf *g, const field *list, const char *key, int width, bool floats,
                                     bool wide, const primitive *p, koksma__gltf_elements *out)
 {
-    long long number = 0, positions = 0;
+    size_t number;
     if (!koksma__json_has(list, key)) {
         return KOKSMA_OK;
     }
@@ -270,31 +267,29 @@ static koksma_status take_attribute(const koksma__gltf *g, const field *list, co
     const bool normalised = out->normalised && (out->component == 5121 || out->component == 5123);
     KOKSMA__JSON_FAIL_IF((out->width != width && !(wide && out->width == width + 1)) ||
                              (out->component != 5126 && (floats || !normalised)),
-                         list, "%s: accessor %lld has %d components of type %d instead of %d of type 5126%s", key,
+                         list, "%s: accessor %zu has %d components of type %d instead of %d of type 5126%s", key,
                          number, out->width, out->component, width,
                          floats ? "" : ", or normalized ones of 5121 or 5123");
-    if (p && out->n != p->positions.n) {
-        KOKSMA__TRY(koksma__json_get_whole(list, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions));
-        return koksma__json_fail(list, "%s: accessor %lld has %zu elements, but accessor %lld has %zu positions", key,
-                                 number, out->n, positions, p->positions.n);
-    }
+    KOKSMA__JSON_FAIL_IF(p && out->n != p->positions.n, list,
+                         "%s: accessor %zu has %zu elements, but accessor %zu has %zu positions", key, number, out->n,
+                         koksma__gltf_index(list, "POSITION", 0), p->positions.n);
     return KOKSMA_OK;
 }
 
 static koksma_status take_indices(koksma__gltf *g, const field *f, const field *attributes, primitive *p)
 {
-    long long number = 0, positions = 0;
+    size_t number;
     koksma__gltf_elements *e = &p->indices;
     if (!koksma__json_has(f, "indices")) {
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__gltf_elements_at(g, f, "indices", e, &number));
     if (e->width != 1 || (e->component != 5121 && e->component != 5123 && e->component != 5125)) {
-        const field accessor = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, (size_t)number);
+        const field accessor = koksma__gltf_item(g, KOKSMA__GLTF_ACCESSORS, number);
         const char *type = "";
         KOKSMA__TRY(koksma__json_get_text(&accessor, "type", true, &type));
         return koksma__json_fail(f,
-                                 "indices: accessor %lld has %.16s of component type %d; indices are SCALAR of 5121, "
+                                 "indices: accessor %zu has %.16s of component type %d; indices are SCALAR of 5121, "
                                  "5123 or 5125",
                                  number, type, e->component);
     }
@@ -315,13 +310,10 @@ static koksma_status take_indices(koksma__gltf *g, const field *f, const field *
     }
     for (size_t i = 0; *beyond > p->positions.n && i < e->n; i++) {
         const size_t vertex = koksma__gltf_whole(e, i);
-        if (vertex >= p->positions.n) {
-            KOKSMA__TRY(koksma__json_get_whole(attributes, "POSITION", true, 0, KOKSMA__GLTF_ITEMS, &positions));
-            return koksma__json_fail(f,
-                                     "indices: number %zu of accessor %lld is vertex %zu, but accessor %lld has %zu "
-                                     "vertices, numbered from 0",
-                                     i, number, vertex, positions, p->positions.n);
-        }
+        KOKSMA__JSON_FAIL_IF(vertex >= p->positions.n, f,
+                             "indices: number %zu of accessor %zu is vertex %zu, but accessor %zu has %zu vertices, "
+                             "numbered from 0",
+                             i, number, vertex, koksma__gltf_index(attributes, "POSITION", 0), p->positions.n);
     }
     return KOKSMA_OK;
 }
@@ -330,14 +322,13 @@ static koksma_status take_indices(koksma__gltf *g, const field *f, const field *
 static koksma_status take_primitive(koksma__gltf *g, const field *f, primitive *p)
 {
     field list;
-    *p = (primitive){.mode = TRIANGLES, .material = (long long)g->n[KOKSMA__GLTF_MATERIALS]};
+    *p = (primitive){.mode = TRIANGLES, .material = koksma__gltf_index(f, "material", g->n[KOKSMA__GLTF_MATERIALS])};
     KOKSMA__TRY(koksma__json_member(f, "attributes", &list));
     if (!koksma__json_has(&list, "POSITION")) {
         return KOKSMA_OK;
     }
     KOKSMA__TRY(koksma__json_get_whole(f, "mode", false, 0, FAN, &p->mode));
-    KOKSMA__TRY(koksma__json_get_whole(f, "material", false, 0, p->material, &p->material));
-    const char *const uvs = uv_set(g, (size_t)p->material) ? "TEXCOORD_1" : "TEXCOORD_0";
+    const char *const uvs = uv_set(g, p->material) ? "TEXCOORD_1" : "TEXCOORD_0";
     KOKSMA__TRY(take_attribute(g, &list, "POSITION", 3, true, false, NULL, &p->positions));
     KOKSMA__TRY(take_attribute(g, &list, "NORMAL", 3, true, false, p, &p->normals));
     KOKSMA__TRY(take_attribute(g, &list, uvs, 2, false, false, p, &p->uvs));
@@ -410,7 +401,7 @@ static koksma_status keep_primitive(koksma__gltf *g, const primitive *p)
     }
     if (!status) {
         fill(p, &mesh);
-        status = koksma__file_take_mesh(g->out, &mesh, (size_t)p->material);
+        status = koksma__file_take_mesh(g->out, &mesh, p->material);
     } else {
         status = koksma__fail_in(status, g->out->path);
     }
@@ -459,25 +450,18 @@ static koksma_status take_image(koksma__gltf *g, size_t number, koksma__file_tex
     char name[32];
     long long view = 0;
     koksma__gltf_bytes *bytes = &g->images[number];
-    koksma_status status = koksma__json_get_text(&f, "uri", false, &uri);
-    const bool data = uri && !strncmp(uri, "data:", 5);
-    if (!status && uri && !data) {
-        out->name = strdup(uri);
-        return out->name ? KOKSMA_OK : koksma__fail_memory(strlen(uri));
-    }
-    if (!status && data && !bytes->bytes) {
-        status = koksma__gltf_decode(g, &f, uri, bytes);
-    } else if (!status && !data) {
-        status = koksma__json_get_whole(&f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &view);
-        status = status ? status : koksma__json_get_text(&f, "mimeType", true, &type);
-        status = status ? status : koksma__gltf_view_bytes(g, (size_t)view, bytes);
-    }
-    if (status) {
-        return status;
+    KOKSMA__TRY(koksma__json_get_text(&f, "uri", false, &uri));
+    const bool within = !uri || !strncmp(uri, "data:", 5);
+    if (uri && within && !bytes->bytes) {
+        KOKSMA__TRY(koksma__gltf_decode(g, &f, uri, bytes));
+    } else if (!uri) {
+        KOKSMA__TRY(koksma__json_get_whole(&f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &view));
+        KOKSMA__TRY(koksma__json_get_text(&f, "mimeType", true, &type));
+        KOKSMA__TRY(koksma__gltf_view_bytes(g, (size_t)view, bytes));
     }
     snprintf(name, sizeof name, "images[%zu]", number);
-    out->name = strdup(name);
-    out->within = true;
+    out->name = strdup(within ? name : uri);
+    out->within = within;
     out->bytes = bytes->bytes;
     out->size = bytes->size;
     return out->name ? KOKSMA_OK : koksma__fail_memory(sizeof name);
@@ -507,12 +491,11 @@ static koksma_status take_transform(const field *info, koksma__file_texture *out
 
 static koksma_status take_sampler(const koksma__gltf *g, const field *texture, koksma__file_texture *out)
 {
-    long long number = 0, wrap[2] = {10497, 10497}, filter = 0;
+    long long wrap[2] = {10497, 10497}, filter = 0;
     if (!koksma__json_has(texture, "sampler")) {
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(koksma__json_get_whole(texture, "sampler", true, 0, KOKSMA__GLTF_ITEMS, &number));
-    const field f = koksma__gltf_item(g, KOKSMA__GLTF_SAMPLERS, (size_t)number);
+    const field f = koksma__gltf_item(g, KOKSMA__GLTF_SAMPLERS, koksma__gltf_index(texture, "sampler", 0));
     KOKSMA__TRY(koksma__json_get_whole(&f, "wrapS", false, 0, 65535, &wrap[0]));
     KOKSMA__TRY(koksma__json_get_whole(&f, "wrapT", false, 0, 65535, &wrap[1]));
     KOKSMA__TRY(koksma__json_get_whole(&f, "magFilter", false, 0, 65535, &filter));
@@ -526,7 +509,7 @@ static koksma_status take_sampler(const koksma__gltf *g, const field *texture, k
 static koksma_status take_texture(koksma__gltf *g, size_t material, const field *f, const char *key,
                                   koksma__file_texture *out)
 {
-    long long number = 0, image = 0, set = 0;
+    long long number = 0, set = 0;
     field info;
     if (!koksma__json_is_object_at(f, key)) {
         return KOKSMA_OK;
@@ -534,7 +517,6 @@ static koksma_status take_texture(koksma__gltf *g, size_t material, const field 
     KOKSMA__TRY(koksma__json_member(f, key, &info));
     KOKSMA__TRY(koksma__json_get_whole(&info, "index", true, 0, KOKSMA__GLTF_ITEMS, &number));
     const field texture = koksma__gltf_item(g, KOKSMA__GLTF_TEXTURES, (size_t)number);
-    KOKSMA__TRY(koksma__json_get_whole(&texture, "source", false, 0, KOKSMA__GLTF_ITEMS, &image));
     if (!koksma__json_has(&texture, "source")) {
         return KOKSMA_OK; /* its image comes from an unsupported extension, which a warning names */
     }
@@ -542,7 +524,7 @@ static koksma_status take_texture(koksma__gltf *g, size_t material, const field 
     g->out->unread.second_uvs += set != uv_set(g, material);
     KOKSMA__TRY(take_transform(&info, out));
     KOKSMA__TRY(take_sampler(g, &texture, out));
-    return take_image(g, (size_t)image, out);
+    return take_image(g, koksma__gltf_index(&texture, "source", 0), out);
 }
 
 /* ---- Materials ---------------------------------------------------------------------------------------------- */
@@ -629,21 +611,17 @@ static koksma_status take_material(koksma__gltf *g, size_t i, koksma__file_mater
 static koksma_status read_materials(koksma__gltf *g)
 {
     const size_t n = g->n[KOKSMA__GLTF_MATERIALS];
-    koksma_status status = KOKSMA_OK;
-    for (size_t i = 0; !status && i <= n; i++) {
+    for (size_t i = 0; i <= n; i++) {
         koksma__file_material *m;
-        status = koksma__file_add_material(g->out, 1, &m);
-        if (status) {
-            return status;
-        }
+        KOKSMA__TRY(koksma__file_add_material(g->out, 1, &m));
         m->metallic = m->roughness = 1; /* glTF's defaults */
         m->alpha = 1;
         m->ior = 1.5;
         m->principled = true;
         m->tinted = g->material_tinted[i];
-        status = i < n && g->material_used[i] ? take_material(g, i, m) : KOKSMA_OK;
+        KOKSMA__TRY(i < n && g->material_used[i] ? take_material(g, i, m) : KOKSMA_OK);
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__gltf_read_scene(koksma__gltf *g)

@@ -297,7 +297,7 @@ static koksma_status check_accessor(const koksma__gltf *g, const field *f, koksm
         int n;
     } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
     enum { TYPES = sizeof types / sizeof *types };
-    long long number = 0, offset = 0, count = 0, component = 0;
+    long long offset = 0, count = 0, component = 0;
     const char *type = "";
     size_t t = 0;
     KOKSMA__TRY(bytes(f, "byteOffset", false, &offset));
@@ -318,9 +318,8 @@ static koksma_status check_accessor(const koksma__gltf *g, const field *f, koksm
     if (!koksma__json_has(f, "bufferView")) {
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(koksma__json_get_whole(f, "bufferView", true, 0, KOKSMA__GLTF_ITEMS, &number));
-    const koksma__gltf_view *view = &g->views[number];
-    out->view = (size_t)number + 1;
+    out->view = koksma__gltf_index(f, "bufferView", 0) + 1;
+    const koksma__gltf_view *view = &g->views[out->view - 1];
     out->stride = view->stride > size ? view->stride : size;
     KOKSMA__JSON_FAIL_IF(out->offset + (out->n - 1) * out->stride + size > view->size, f,
                          "%lld elements of %zu bytes lie beyond a view of %zu bytes", count, size, view->size);
@@ -330,25 +329,24 @@ static koksma_status check_accessor(const koksma__gltf *g, const field *f, koksm
 /* Checks that no node has two parents and that the roots of scenes have no parent, so that there are no cycles. */
 static koksma_status check_tree(const koksma__gltf *g)
 {
-    field nodes, scenes, list;
-    size_t n, n_scenes = 0;
-    koksma_status status = koksma__gltf_list(&g->root, "nodes", &nodes, &n);
-    for (int pass = 0; !status && pass < 2; pass++) {
-        status = pass ? koksma__gltf_list(&g->root, "scenes", &scenes, &n_scenes) : KOKSMA_OK;
-        for (size_t i = 0; !status && i < (pass ? n_scenes : g->n[KOKSMA__GLTF_NODES]); i++) {
-            const field item = koksma__json_item(pass ? &scenes : &nodes, i);
-            status = koksma__gltf_list(&item, pass ? "nodes" : "children", &list, &n);
-            for (size_t c = 0; !status && c < n; c++) {
+    field list;
+    size_t n;
+    for (int pass = 0; pass < 2; pass++) {
+        const int which = pass ? KOKSMA__GLTF_SCENES : KOKSMA__GLTF_NODES;
+        for (size_t i = 0; i < g->n[which]; i++) {
+            const field item = koksma__gltf_item(g, which, i);
+            KOKSMA__TRY(koksma__gltf_list(&item, pass ? "nodes" : "children", &list, &n));
+            for (size_t c = 0; c < n; c++) {
                 const field child = koksma__json_item(&list, c);
                 long long number = 0;
-                status = koksma__json_whole(&child, 0, (long long)g->n[KOKSMA__GLTF_NODES] - 1, &number);
-                KOKSMA__JSON_FAIL_IF(!status && g->has_parent[number], &child,
+                KOKSMA__TRY(koksma__json_whole(&child, 0, (long long)g->n[KOKSMA__GLTF_NODES] - 1, &number));
+                KOKSMA__JSON_FAIL_IF(g->has_parent[number], &child,
                                      pass ? "node %lld has a parent" : "node %lld has two parents", number);
-                g->has_parent[status ? 0 : number] |= !pass;
+                g->has_parent[number] = !pass;
             }
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* A reader that does not support an extension that the file requires must not show the file (glTF 2.0, section 3.12). */

@@ -17,6 +17,8 @@
 
 #define FAR 1e6
 
+const double koksma__identity_matrix[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
 koksma_status koksma__mesh_init(size_t n_vertices, size_t n_triangles, bool normals, bool uvs, koksma__mesh *out)
 {
     KOKSMA__FAIL_IF(n_vertices > KOKSMA__MAX_VERTICES || n_triangles > KOKSMA__MAX_TRIANGLES, KOKSMA_MALFORMED,

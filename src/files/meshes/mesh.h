@@ -24,6 +24,8 @@ typedef struct koksma__mesh {
     size_t n_degenerate; /* triangles without area */
 } koksma__mesh;
 
+extern const double koksma__identity_matrix[12];
+
 /* x -> translate + rotation (stretch x), with the rotation as a unit quaternion (w, x, y, z) and the stretch as a
    matrix of three rows. */
 typedef struct koksma__pose {

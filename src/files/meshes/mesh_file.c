@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * What the readers of mesh files share: lists that grow, the limits of a file, fans of triangles, and the search for files
- * that a model names. Reading takes time linear in the file's size, and at most 36 bytes of memory
- * for each byte of text (the worst case is an OBJ file whose corners are all "1 "). All meshes of a file together
- * have at most 64 Mi vertices and triangles.
+ * What the readers of mesh files share: lists that grow, the limits of a file, and the search for files that a model
+ * names. Reading takes time linear in the file's size, and at most 36 bytes of memory for each byte of text (the worst
+ * case is an OBJ file whose corners are all "1 "). All meshes of a file together have at most 64 Mi vertices and triangles.
  */
 #include "meshes/mesh_file.h"
 
@@ -134,20 +133,16 @@ void *koksma__list_add(koksma__list *list, size_t more, size_t item_size)
 koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, size_t material)
 {
     const size_t most = KOKSMA__MAX_VERTICES;
-    koksma__file_mesh *to = NULL;
-    koksma_status status = KOKSMA_OK;
     f->n_vertices += mesh->n_vertices;
     f->n_triangles += mesh->n_triangles;
-    if (f->n_vertices > most || f->n_triangles > most) {
-        status = koksma__fail(KOKSMA_MALFORMED,
-                              "%s: all its meshes together have more than %zu vertices or triangles", f->path, most);
-    } else {
-        to = koksma__list_add(&f->meshes, 1, sizeof *to);
-        status = to ? KOKSMA_OK : KOKSMA_MEMORY;
-    }
-    if (status) {
+    const bool fits = f->n_vertices <= most && f->n_triangles <= most;
+    koksma__file_mesh *to = fits ? koksma__list_add(&f->meshes, 1, sizeof *to) : NULL;
+    if (!to) {
         koksma__mesh_fini(mesh);
-        return status;
+        return fits ? KOKSMA_MEMORY
+                    : koksma__fail(KOKSMA_MALFORMED,
+                                   "%s: all its meshes together have more than %zu vertices or triangles", f->path,
+                                   most);
     }
     *to = (koksma__file_mesh){.mesh = *mesh, .material = material};
     *mesh = (koksma__mesh){0};
@@ -156,13 +151,12 @@ koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, s
 
 koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, const double *matrix)
 {
-    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     KOKSMA__FAIL_IF(f->placements.n == MAX_PLACEMENTS, KOKSMA_MALFORMED, "%s: nodes place more than %d meshes",
                     f->path, MAX_PLACEMENTS);
     koksma__file_placement *to = koksma__list_add(&f->placements, 1, sizeof *to);
     KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
     to->mesh = mesh;
-    memcpy(to->matrix, matrix ? matrix : identity, sizeof to->matrix);
+    memcpy(to->matrix, matrix, sizeof to->matrix);
     return KOKSMA_OK;
 }
 
@@ -174,31 +168,15 @@ koksma_status koksma__file_add_material(koksma__mesh_file *f, float grey, koksma
     return KOKSMA_OK;
 }
 
-koksma_status koksma__fan_add(const char *path, koksma__list *indices, const uint32_t *corners, size_t n)
+koksma_status koksma__file_keep(koksma__mesh_file *f, unsigned char *bytes)
 {
-    if (n < 3) {
-        return KOKSMA_OK;
+    unsigned char **kept = koksma__list_add(&f->owned, 1, sizeof *kept);
+    if (!kept) {
+        free(bytes);
+        return KOKSMA_MEMORY;
     }
-    KOKSMA__FAIL_IF(indices->n / 3 + n > KOKSMA__MAX_TRIANGLES, KOKSMA_MALFORMED,
-                    "%s: a mesh has at most %zu triangles", path, KOKSMA__MAX_TRIANGLES);
-    uint32_t *to = koksma__list_add(indices, 3 * (n - 2), sizeof *to);
-    for (size_t i = 2; to && i < n; i++, to += 3) {
-        to[0] = corners[0];
-        to[1] = corners[i - 1];
-        to[2] = corners[i];
-    }
-    return to ? KOKSMA_OK : KOKSMA_MEMORY;
-}
-
-void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh)
-{
-    if (indices->n) {
-        uint32_t *exact = realloc(indices->items, indices->n * sizeof *exact);
-        free(mesh->indices);
-        mesh->indices = exact ? exact : indices->items;
-        mesh->n_triangles = indices->n / 3;
-        *indices = (koksma__list){0};
-    }
+    *kept = bytes;
+    return KOKSMA_OK;
 }
 
 void koksma__mesh_file_fini(koksma__mesh_file *f)
@@ -207,14 +185,13 @@ void koksma__mesh_file_fini(koksma__mesh_file *f)
         koksma__mesh_fini(&koksma__file_mesh_at(f, i)->mesh);
     }
     for (size_t i = 0; i < f->materials.n; i++) {
-        free(koksma__file_material_at(f, i)->colour_map.name);
         koksma__file_material *m = koksma__file_material_at(f, i);
-        KOKSMA__FREE(m->glow_map.name, m->surface_map.name, m->normal_map.name);
+        KOKSMA__FREE(m->colour_map.name, m->glow_map.name, m->surface_map.name, m->normal_map.name);
     }
     for (size_t i = 0; i < f->owned.n; i++) {
         free(((void **)f->owned.items)[i]);
     }
-    KOKSMA__FREE(f->meshes.items, f->materials.items, f->placements.items, f->lights.items, f->owned.items);
-    free(f->unknown);
+    KOKSMA__FREE(f->meshes.items, f->materials.items, f->placements.items, f->lights.items, f->owned.items,
+                 f->unknown);
     *f = (koksma__mesh_file){0};
 }

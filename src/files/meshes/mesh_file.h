@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The contents of a mesh file as plain data: meshes, materials, their placements by nodes, lights and a camera. The
-   readers (mesh_obj.c, mesh_mtl.c, mesh_off.c, mesh_ply.c, mesh_serialized.c, gltf_*.c) fill it in one pass over the
-   file; scene/model.c builds a scene from it, koksma__mesh_read() a single mesh. */
+   readers (mesh_obj.c, mesh_mtl.c, mesh_ply.c, mesh_serialized.c, gltf*.c) fill it in one pass over the file;
+   scene/model.c builds a scene from it, koksma__mesh_read() a single mesh. */
 #ifndef KOKSMA_MESHES_MESH_FILE_H
 #define KOKSMA_MESHES_MESH_FILE_H
 
@@ -119,7 +119,7 @@ static inline koksma__file_placement *koksma__file_placement_at(const koksma__me
    many times can't fill the memory. Errors: MALFORMED (over the limit), MEMORY. */
 koksma_status koksma__file_take_mesh(koksma__mesh_file *f, koksma__mesh *mesh, size_t material);
 
-/* Adds a placement; matrix: NULL for the identity. Errors: MALFORMED (over 2^20), MEMORY. */
+/* Adds a placement. Errors: MALFORMED (over 2^20), MEMORY. */
 koksma_status koksma__file_add_placement(koksma__mesh_file *f, size_t mesh, const double *matrix);
 
 /* Adds a Lambert material of this grey. *out is valid until the next call. Errors: MEMORY. */
@@ -135,13 +135,8 @@ static inline uint64_t koksma__bits_at(const unsigned char *at, size_t bytes, bo
     return value;
 }
 
-/* Adds a fan of triangles around the polygon's first corner to a list with 3 indices per triangle: this is exact for
-   convex polygons; for a concave polygon some triangles may reach outside of the polygon or overlap. Errors, which
-   name path: MALFORMED (too many triangles), MEMORY. */
-koksma_status koksma__fan_add(const char *path, koksma__list *indices, const uint32_t *corners, size_t n);
-
-/* Moves the list's indices into a mesh that has no triangles yet. */
-void koksma__fan_finish(koksma__list *indices, koksma__mesh *mesh);
+/* Frees a block of memory with the file, or at once after an error. Errors: MEMORY. */
+koksma_status koksma__file_keep(koksma__mesh_file *f, unsigned char *bytes);
 
 /* Whether the path exists and is not a folder; koksma__read_file rejects everything but plain files. */
 bool koksma__is_file(const char *path);
@@ -159,7 +154,7 @@ bool koksma__find_named(const char *model, const char *name, char out[KOKSMA__MA
 
 /* ---- Whole files ---- */
 
-/* Whether a file's name has the ending of a mesh file (.obj .ply .ply.gz .off .gltf .glb .serialized). */
+/* Whether a file's name has the ending of a mesh file (.obj .ply .ply.gz .gltf .glb .serialized). */
 bool koksma__is_mesh_file(const char *path);
 
 /* Reads a mesh file and the files that it names. The caller must call koksma__mesh_file_fini even after an error.

@@ -35,15 +35,13 @@ koksma__mtl_name *koksma__mtl_find(koksma__mtl_names *names, koksma__mesh_file *
     }
     koksma__mtl_name *new = koksma__list_add(&names->names, 1, sizeof *new);
     if (new) {
-        *new = (koksma__mtl_name){.name = malloc(length + 1), .material = f->materials.n};
+        *new = (koksma__mtl_name){.name = strndup(name, length), .material = f->materials.n};
     }
     if (!new || !new->name || koksma__names_put(&names->places, name, length, names->names.n - 1) ||
         koksma__file_add_material(f, 0.6f, &material)) {
         koksma__fail_memory(length);
         return NULL;
     }
-    memcpy(new->name, name, length);
-    new->name[length] = '\0';
     return new;
 }
 
@@ -116,18 +114,16 @@ koksma_status koksma__name_word(const koksma__text *t, const char *word, size_t 
     return koksma__unknown_put(&f->unknown, &f->n_unknown, t->path, (unsigned long)t->number, text);
 }
 
-static koksma_status name_keyword(const koksma__text *t, const char *word, size_t length, koksma__mesh_file *f)
+static koksma_status name_keyword(const koksma__text *t, const char *word, koksma__mesh_file *f)
 {
-    char given[48];
-    snprintf(given, sizeof given, "%.*s", length < 40 ? (int)length : 40, word);
     for (size_t i = 0; keywords[i]; i++) {
         /* a colour's keyword in other case is another word to every reader */
         const bool map = strlen(keywords[i]) > 3;
-        if (map ? !strcasecmp(keywords[i], given) : !strcmp(keywords[i], given)) {
+        if (map ? !strcasecmp(keywords[i], word) : !strcmp(keywords[i], word)) {
             return KOKSMA_OK;
         }
     }
-    return koksma__name_word(t, word, length, "a keyword of material files", keywords, f);
+    return koksma__name_word(t, word, strlen(word), "a keyword of material files", keywords, f);
 }
 
 /* Reads the file's name, which follows the options, as in "-s 2 1 image.png". The options -o, -s and -t have one to
@@ -169,10 +165,8 @@ static koksma_status take_texture(koksma__text *t, koksma__mesh_file *f, koksma_
     if (!length) {
         return KOKSMA_OK;
     }
-    out->name = malloc(length + 1);
+    out->name = strndup(rest, length);
     KOKSMA__REQUIRE_MEMORY(out->name, length);
-    memcpy(out->name, rest, length);
-    out->name[length] = '\0';
     return KOKSMA_OK;
 }
 
@@ -182,52 +176,49 @@ static koksma_status take_one(koksma__text *t, float *out)
 }
 
 /* Reads the property of material m that a line sets. */
-static koksma_status take_property(koksma__text *t, const char *word, size_t length, koksma__mesh_file *f,
-                                   koksma__file_material *m)
+static koksma_status take_property(koksma__text *t, const char *word, koksma__mesh_file *f, koksma__file_material *m)
 {
     float value = 1, glow[3];
-    koksma_status status = KOKSMA_OK;
-    if (koksma__text_is(word, length, "Kd")) {
+    if (!strcmp(word, "Kd")) {
         return take_colour(t, m->colour);
     }
-    if (koksma__text_is(word, length, "Ke")) {
-        status = take_colour(t, glow);
-        for (int k = 0; !status && k < 3; k++) {
+    if (!strcmp(word, "Ke")) {
+        KOKSMA__TRY(take_colour(t, glow));
+        for (int k = 0; k < 3; k++) {
             m->glow[k] = (double)glow[k];
         }
-    } else if (koksma__text_is(word, length, "d") || koksma__text_is(word, length, "Tr")) {
+    } else if (!strcmp(word, "d") || !strcmp(word, "Tr")) {
         koksma__text after = *t;
         const char *halo;
         size_t n;
         *t = koksma__text_word(&after, &halo, &n) && koksma__text_is(halo, n, "-halo") ? after : *t;
-        status = take_one(t, &value);
+        KOKSMA__TRY(take_one(t, &value));
         m->see_through = *word == 'd' ? value < 1 : value > 0;
-    } else if (koksma__text_is(word, length, "Pm")) {
-        status = take_one(t, &m->metallic);
-    } else if (koksma__text_is(word, length, "Pr")) {
-        status = take_one(t, &m->roughness);
-    } else if (length == 6 && !strncasecmp(word, "map_Kd", 6)) {
+    } else if (!strcmp(word, "Pm") || !strcmp(word, "Pr")) {
+        return take_one(t, word[1] == 'm' ? &m->metallic : &m->roughness);
+    } else if (!strcasecmp(word, "map_Kd")) {
         return take_texture(t, f, &m->colour_map);
-    } else if ((length == 6 && !strncasecmp(word, "map_Ke", 6)) ||
-               (length == 12 && !strncasecmp(word, "map_emissive", 12))) {
+    } else if (!strcasecmp(word, "map_Ke") || !strcasecmp(word, "map_emissive")) {
         return take_texture(t, f, &m->glow_map);
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma__mesh_file *f, size_t *current)
 {
     koksma__file_material unnamed = {0};
-    const char *word, *rest;
+    const char *first, *rest;
+    char word[48]; /* keywords are shorter */
     size_t length;
     if (t->stop - t->at > MAX_LINE || memchr(t->at, '\0', (size_t)(t->stop - t->at))) {
         return koksma__text_wrong(t, t->stop - t->at > MAX_LINE ? "longer than 1000 characters"
                                                                 : "the file is not text: it contains a zero byte");
     }
-    if (!koksma__text_word(t, &word, &length)) {
+    if (!koksma__text_word(t, &first, &length)) {
         return KOKSMA_OK;
     }
-    if (koksma__text_is(word, length, "newmtl")) {
+    snprintf(word, sizeof word, "%.*s", length < 40 ? (int)length : 40, first);
+    if (!strcmp(word, "newmtl")) {
         length = koksma__text_rest(t, &rest);
         koksma__mtl_name *name = koksma__mtl_find(names, f, rest, length);
         KOKSMA__TRY(name ? KOKSMA_OK : KOKSMA_MEMORY);
@@ -235,10 +226,9 @@ static koksma_status take_line(koksma__text *t, koksma__mtl_names *names, koksma
         *current = name->material;
         return KOKSMA_OK;
     }
-    KOKSMA__TRY(*word == '#' ? KOKSMA_OK : name_keyword(t, word, length, f));
+    KOKSMA__TRY(*word == '#' ? KOKSMA_OK : name_keyword(t, word, f));
     const bool known = *current < f->materials.n;
-    const koksma_status status =
-        take_property(t, word, length, f, known ? koksma__file_material_at(f, *current) : &unnamed);
+    const koksma_status status = take_property(t, word, f, known ? koksma__file_material_at(f, *current) : &unnamed);
     free(unnamed.colour_map.name);
     free(unnamed.glow_map.name);
     return status;

@@ -19,10 +19,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "core/hash.h"
 #include "meshes/mesh_text.h"
 
-enum { MAX_LINE = 1 << 15, MAX_LIBRARIES = 64 };
+enum { MAX_LINE = 1 << 15 };
 
 /* The kinds of items that a corner names, in their order within a corner. */
 enum { PLACE, TEXTURE, NORMAL, KINDS };
@@ -50,14 +51,13 @@ typedef struct obj {
     size_t highest[KINDS]; /* largest number that a corner names */
     size_t line_of[KINDS]; /* the line that first names that number */
     koksma__mtl_names names;
-    koksma__list used;                 /* indices of names (size_t) in the order in which the names were first used */
-    size_t material;                   /* material of the following polygons */
-    bool split;                        /* the next polygon begins a new mesh */
-    uint64_t group, object;            /* hashes of the names of the current group and object */
-    uint64_t libraries[MAX_LIBRARIES]; /* hashes of the mtllib lines' names */
-    size_t n_libraries;
-    koksma__names read; /* the material files that were read, by koksma__file_key */
-    bool own_library;   /* whether the material file with the same name as the model was read */
+    koksma__list used;       /* indices of names (size_t) in the order in which the names were first used */
+    size_t material;         /* material of the following polygons */
+    bool split;              /* the next polygon begins a new mesh */
+    uint64_t group, object;  /* hashes of the names of the current group and object */
+    koksma__names libraries; /* what mtllib lines have named */
+    koksma__names read;      /* the material files that were read, by koksma__file_key */
+    bool own_library;        /* whether the material file with the same name as the model was read */
     char joined[MAX_LINE + 1];
 } obj;
 
@@ -304,15 +304,11 @@ static koksma_status note_missing(obj *o, const char *name)
 static koksma_status take_libraries(obj *o, const char *rest, size_t length)
 {
     char name[KOKSMA__MAX_PATH], path[KOKSMA__MAX_PATH];
-    const uint64_t hash = koksma__hash(rest, length);
-    for (size_t i = 0; i < o->n_libraries; i++) {
-        if (o->libraries[i] == hash) {
-            return KOKSMA_OK;
-        }
+    size_t known;
+    if (koksma__names_find(&o->libraries, rest, length, &known)) {
+        return KOKSMA_OK;
     }
-    KOKSMA__FAIL_IF(o->n_libraries == MAX_LIBRARIES, KOKSMA_MALFORMED, "%s: more than %d different lines mtllib",
-                    o->text.path, MAX_LIBRARIES);
-    o->libraries[o->n_libraries++] = hash;
+    KOKSMA__TRY(koksma__names_put(&o->libraries, rest, length, 0));
     if (length >= sizeof name) {
         return wrong(o, "the name of a material file is longer than 4095 characters");
     }
@@ -435,12 +431,12 @@ static koksma_status make_mesh(obj *o, const part *p, size_t end_corner, size_t 
 static koksma_status finish(obj *o)
 {
     const part *parts = o->parts.items;
-    koksma_status status = check_corners(o);
-    for (size_t i = 0; !status && i < o->parts.n; i++) {
+    KOKSMA__TRY(check_corners(o));
+    for (size_t i = 0; i < o->parts.n; i++) {
         const bool last = i + 1 == o->parts.n;
-        status = make_mesh(o, &parts[i], last ? o->corners.n : parts[i + 1].first_corner,
-                           last ? o->indices.n : parts[i + 1].first_index);
-        status = status ? status : koksma__file_add_placement(o->out, i, NULL);
+        KOKSMA__TRY(make_mesh(o, &parts[i], last ? o->corners.n : parts[i + 1].first_corner,
+                              last ? o->indices.n : parts[i + 1].first_index));
+        KOKSMA__TRY(koksma__file_add_placement(o->out, i, koksma__identity_matrix));
     }
     const size_t *used = o->used.items;
     koksma__unread *unread = &o->out->unread;
@@ -450,7 +446,7 @@ static koksma_status finish(obj *o)
             snprintf(unread->material, sizeof unread->material, "%s", name->name);
         }
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
@@ -466,17 +462,10 @@ koksma_status koksma__obj_read(const unsigned char *bytes, size_t size, koksma__
         status = take_line(o);
     }
     status = status ? status : finish(o);
-    koksma__list *lists[] = {&o->vertices[PLACE],
-                             &o->vertices[TEXTURE],
-                             &o->vertices[NORMAL],
-                             &o->corners,
-                             &o->indices,
-                             &o->parts,
-                             &o->used};
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        free(lists[i]->items);
-    }
+    KOKSMA__FREE(o->vertices[PLACE].items, o->vertices[TEXTURE].items, o->vertices[NORMAL].items, o->corners.items,
+                 o->indices.items, o->parts.items, o->used.items);
     koksma__mtl_names_fini(&o->names);
+    koksma__names_fini(&o->libraries);
     koksma__names_fini(&o->read);
     free(o);
     return status;

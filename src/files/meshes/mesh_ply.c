@@ -19,6 +19,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/capacity.h"
 #include "meshes/mesh_text.h"
 
 enum { MAX_ELEMENTS = 64, MAX_PROPERTIES = 1024, NAME = 64 };
@@ -185,22 +186,24 @@ static koksma_status take_header_line(ply *p, const char *line)
 static koksma_status take_header(ply *p)
 {
     char line[1024], format[24] = "", version[8], rest[2];
-    koksma_status status = next_header_line(p, line);
-    if (!status && strcmp(line, "ply") != 0) {
+    KOKSMA__TRY(next_header_line(p, line));
+    if (strcmp(line, "ply") != 0) {
         return koksma__text_wrong(&p->text, "the file does not begin with 'ply'");
     }
-    status = status ? status : next_header_line(p, line);
-    if (!status && (sscanf(line, "format %23s %7s %1s", format, version, rest) != 2 || strcmp(version, "1.0") != 0 ||
-                    (strcmp(format, "ascii") != 0 && strcmp(format, "binary_little_endian") != 0 &&
-                     strcmp(format, "binary_big_endian") != 0))) {
-        return koksma__text_wrong(&p->text, "the format is not ascii, binary_little_endian or binary_big_endian 1.0");
-    }
+    KOKSMA__TRY(next_header_line(p, line));
+    const bool whole = sscanf(line, "format %23s %7s %1s", format, version, rest) == 2 && !strcmp(version, "1.0");
     p->is_text = !strcmp(format, "ascii");
     p->big_endian = !strcmp(format, "binary_big_endian");
-    while (!status && !(status = next_header_line(p, line)) && strcmp(line, "end_header") != 0) {
-        status = take_header_line(p, line);
+    if (!whole || (!p->is_text && !p->big_endian && strcmp(format, "binary_little_endian") != 0)) {
+        return koksma__text_wrong(&p->text, "the format is not ascii, binary_little_endian or binary_big_endian 1.0");
     }
-    return status;
+    for (;;) {
+        KOKSMA__TRY(next_header_line(p, line));
+        if (!strcmp(line, "end_header")) {
+            return KOKSMA_OK;
+        }
+        KOKSMA__TRY(take_header_line(p, line));
+    }
 }
 
 /* Checks that the file can be as long as its counts claim, before memory and time are spent on it. */
@@ -223,12 +226,13 @@ static koksma_status check_length(const ply *p)
 
 /* ---- Numbers ------------------------------------------------------------------------------------------------ */
 
-/* Reads the next number of a text line into *real and, if the type `of` is one of whole numbers, also into *whole. */
-static koksma_status take_text(ply *p, const type *of, double *real, long long *whole)
+/* Reads the next number of a text line. */
+static koksma_status take_text(ply *p, const type *of, double *out)
 {
     const char *word;
     size_t length;
     float value = 0;
+    long long whole = 0;
     if (!koksma__text_word(&p->text, &word, &length)) {
         return koksma__text_wrong(&p->text, "the line has fewer numbers than its element");
     }
@@ -236,59 +240,47 @@ static koksma_status take_text(ply *p, const type *of, double *real, long long *
     const bool negative = *word == '-', sign = negative || *word == '+';
     if (of->kind != REAL) {
         at += of->kind == WHOLE && sign;
-        if (!koksma__text_whole(&at, end, whole) || at != end) {
+        if (!koksma__text_whole(&at, end, &whole) || at != end) {
             return koksma__text_wrong(&p->text, "expected a whole number");
         }
-        *whole = negative ? -*whole : *whole;
-        *real = (double)*whole;
+        *out = (double)(negative ? -whole : whole);
         return KOKSMA_OK;
     }
     if (length == 3u + sign && (!memcmp(word + sign, "nan", 3) || !memcmp(word + sign, "inf", 3))) {
         /* some files have "nan" for unused properties; koksma__mesh_check() rejects positions that are NaN */
-        *real = NAN;
+        *out = NAN;
         return KOKSMA_OK;
     }
     if (!koksma__text_float(&at, end, &value) || at != end) {
         return koksma__text_wrong(&p->text, "expected a number");
     }
-    *real = (double)value;
+    *out = (double)value;
     return KOKSMA_OK;
 }
 
-static inline long long whole_at(const ply *p, const type *of, const unsigned char *at)
+/* The binary number at `at`; those of all types are doubles, too. */
+static inline double number_at(const ply *p, const type *of, const unsigned char *at)
 {
     const uint64_t value = koksma__bits_at(at, of->bytes, p->big_endian), sign = 1ull << (8 * of->bytes - 1);
-    return of->kind == WHOLE && value & sign ? (long long)(value & (sign - 1)) - (long long)sign : (long long)value;
-}
-
-static double real_at(const ply *p, const type *of, const unsigned char *at)
-{
-    if (of->kind != REAL) {
-        return (double)whole_at(p, of, at);
-    }
-    const uint64_t value = koksma__bits_at(at, of->bytes, p->big_endian);
     const uint32_t half = (uint32_t)value;
     double wide;
     float narrow;
+    if (of->kind != REAL) {
+        return (double)value - (of->kind == WHOLE && value & sign ? 2 * (double)sign : 0);
+    }
     memcpy(&wide, &value, sizeof wide);
     memcpy(&narrow, &half, sizeof narrow);
     return of->bytes == 8 ? wide : (double)narrow;
 }
 
-/* Reads the next number of an element: from a text file as take_text() does, from a binary file into *whole if
-   as_whole is true, else into *real. For a binary file the caller has checked that enough bytes remain. */
-static inline koksma_status take_number(ply *p, const type *of, bool as_whole, double *real, long long *whole)
+/* Reads the next number of an element. For a binary file the caller has checked that enough bytes remain. */
+static inline koksma_status take_number(ply *p, const type *of, double *out)
 {
     if (p->is_text) {
-        return take_text(p, of, real, whole);
+        return take_text(p, of, out);
     }
-    const unsigned char *at = (const unsigned char *)p->text.next;
+    *out = number_at(p, of, (const unsigned char *)p->text.next);
     p->text.next += of->bytes;
-    if (as_whole) {
-        *whole = whole_at(p, of, at);
-    } else {
-        *real = real_at(p, of, at);
-    }
     return KOKSMA_OK;
 }
 
@@ -331,26 +323,19 @@ static void put_vertex(ply *p, size_t i, slot to, const type *of, double value)
 /* Stores item j of a face's list: the index of a corner, or a corner's texture coordinate. */
 static koksma_status put_listed(ply *p, const element *e, size_t i, const property *of, long long n, long long j)
 {
-    const bool wedge = of->slot == WEDGES;
-    double real = 0;
-    long long whole = 0;
-    koksma_status status = take_number(p, of->item, !wedge, &real, &whole);
-    if (status || of->slot == UNUSED) {
-        return status;
-    }
-    if (wedge) {
+    double value = 0;
+    KOKSMA__TRY(take_number(p, of->item, &value));
+    if (of->slot == WEDGES) {
         const uint32_t *corners = p->corners.items;
         if ((size_t)n == 2 * p->corners.n && p->mesh.uvs) {
-            p->mesh.uvs[2 * (size_t)corners[j / 2] + j % 2] = (float)real;
+            p->mesh.uvs[2 * (size_t)corners[j / 2] + j % 2] = (float)value;
         }
-        return KOKSMA_OK;
+    } else if (of->slot == CORNERS) {
+        KOKSMA__TRY(check_corner(p, e, i, (long long)value));
+        uint32_t *to = koksma__list_add(&p->corners, 1, sizeof *to);
+        KOKSMA__TRY(to ? KOKSMA_OK : KOKSMA_MEMORY);
+        *to = (uint32_t)value;
     }
-    status = check_corner(p, e, i, whole);
-    uint32_t *to = status ? NULL : koksma__list_add(&p->corners, 1, sizeof *to);
-    if (!to) {
-        return status ? status : KOKSMA_MEMORY;
-    }
-    *to = (uint32_t)whole;
     return KOKSMA_OK;
 }
 
@@ -363,17 +348,17 @@ static koksma_status cut_short(const ply *p, const element *e, size_t i)
 static koksma_status take_list(ply *p, const element *e, size_t i, const property *of)
 {
     const koksma__text *t = &p->text;
-    long long n = 0;
-    double real;
+    double count = 0;
     if (!p->is_text && (size_t)(t->end - t->next) < of->count->bytes) {
         return cut_short(p, e, i);
     }
-    koksma_status status = take_number(p, of->count, true, &real, &n);
-    if (!status && n < 0) {
-        return p->is_text ? koksma__text_wrong(t, "a list has a negative length") : cut_short(p, e, i);
+    KOKSMA__TRY(take_number(p, of->count, &count));
+    long long n = (long long)count;
+    if (p->is_text && n < 0) {
+        return koksma__text_wrong(t, "a list has a negative length");
     }
-    if (!status && !p->is_text) {
-        if ((size_t)n > (size_t)(t->end - t->next) / of->item->bytes) {
+    if (!p->is_text) {
+        if (n < 0 || (size_t)n > (size_t)(t->end - t->next) / of->item->bytes) {
             return cut_short(p, e, i);
         }
         if (of->slot == UNUSED) {
@@ -381,45 +366,62 @@ static koksma_status take_list(ply *p, const element *e, size_t i, const propert
             n = 0;
         }
     }
-    if (!status && of->slot == WEDGES && n && !p->mesh.uvs) {
+    if (of->slot == WEDGES && n && !p->mesh.uvs) {
         p->mesh.uvs = calloc(2 * p->n_vertices + 1, sizeof *p->mesh.uvs);
-        status = p->mesh.uvs ? KOKSMA_OK : koksma__fail_memory(2 * p->n_vertices * sizeof *p->mesh.uvs);
+        KOKSMA__REQUIRE_MEMORY(p->mesh.uvs, 2 * p->n_vertices * sizeof *p->mesh.uvs);
     }
     /* in text files a list ends with its line, even if its count is larger */
-    for (long long j = 0; !status && j < n; j++) {
-        status = put_listed(p, e, i, of, n, j);
+    for (long long j = 0; j < n; j++) {
+        KOKSMA__TRY(put_listed(p, e, i, of, n, j));
     }
-    return status;
+    return KOKSMA_OK;
+}
+
+/* Adds the corners of a face as a fan of triangles around its first corner: this is exact for convex polygons; for a
+   concave polygon some triangles may reach outside of the polygon or overlap. */
+static koksma_status add_fan(ply *p)
+{
+    const uint32_t *corners = p->corners.items;
+    const size_t n = p->corners.n;
+    if (n < 3) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__FAIL_IF(p->indices.n / 3 + n > KOKSMA__MAX_TRIANGLES, KOKSMA_MALFORMED,
+                    "%s: a mesh has at most %zu triangles", p->text.path, KOKSMA__MAX_TRIANGLES);
+    uint32_t *to = koksma__list_add(&p->indices, 3 * (n - 2), sizeof *to);
+    for (size_t i = 2; to && i < n; i++, to += 3) {
+        to[0] = corners[0];
+        to[1] = corners[i - 1];
+        to[2] = corners[i];
+    }
+    return to ? KOKSMA_OK : KOKSMA_MEMORY;
 }
 
 static koksma_status take_item(ply *p, const element *e, size_t i, bool vertices)
 {
     const char *word;
     size_t length;
-    koksma_status status = p->is_text ? koksma__text_full_line(&p->text, '\0') : KOKSMA_OK;
+    KOKSMA__TRY(p->is_text ? koksma__text_full_line(&p->text) : KOKSMA_OK);
     p->corners.n = 0;
-    for (int k = e->first; !status && k < e->first + e->n; k++) {
+    for (int k = e->first; k < e->first + e->n; k++) {
         const property *of = &p->properties[k];
-        double real = 0;
-        long long whole = 0;
+        double value = 0;
         if (of->count) {
-            status = take_list(p, e, i, of);
-        } else if (!p->is_text && (size_t)(p->text.end - p->text.next) < of->item->bytes) {
-            status = cut_short(p, e, i);
-        } else {
-            status = take_number(p, of->item, false, &real, &whole);
-            if (!status && vertices && of->slot != UNUSED) {
-                put_vertex(p, i, of->slot, of->item, real);
-            }
+            KOKSMA__TRY(take_list(p, e, i, of));
+            continue;
+        }
+        if (!p->is_text && (size_t)(p->text.end - p->text.next) < of->item->bytes) {
+            return cut_short(p, e, i);
+        }
+        KOKSMA__TRY(take_number(p, of->item, &value));
+        if (vertices && of->slot != UNUSED) {
+            put_vertex(p, i, of->slot, of->item, value);
         }
     }
-    if (!status && p->is_text && koksma__text_word(&p->text, &word, &length)) {
+    if (p->is_text && koksma__text_word(&p->text, &word, &length)) {
         return koksma__text_wrong(&p->text, "the line has more numbers than its element");
     }
-    if (status || vertices) {
-        return status;
-    }
-    return koksma__fan_add(p->text.path, &p->indices, p->corners.items, p->corners.n);
+    return vertices ? KOKSMA_OK : add_fan(p);
 }
 
 /* Reads the property `of` of the binary vertices first .. first + n - 1; the first of them is at `at`, and each takes
@@ -430,7 +432,7 @@ static void take_column(ply *p, const property *of, const unsigned char *at, siz
     float *numbers = numbers_of(p, of->slot, &step);
     if (!numbers || of->item->kind != REAL || of->item->bytes != 4 || p->big_endian) {
         for (size_t i = 0; i < n; i++) {
-            put_vertex(p, first + i, of->slot, of->item, real_at(p, of->item, at + stride * i));
+            put_vertex(p, first + i, of->slot, of->item, number_at(p, of->item, at + stride * i));
         }
         return;
     }
@@ -511,18 +513,12 @@ static koksma_status take_triangles(ply *p, const element *e, size_t most, size_
 static koksma_status take_element_items(ply *p, const element *e)
 {
     const bool vertices = !strcmp(e->name, "vertex");
-    koksma_status status = KOKSMA_OK;
-    size_t i = vertices && !p->is_text ? take_vertices(p, e) : 0;
-    while (!status && i < e->count) {
-        size_t taken;
-        status = take_triangles(p, e, e->count - i, &taken);
-        if (!status && !taken) {
-            status = take_item(p, e, i, vertices);
-            taken = 1;
-        }
-        i += taken;
+    size_t taken = 0;
+    for (size_t i = vertices && !p->is_text ? take_vertices(p, e) : 0; i < e->count; i += taken ? taken : 1) {
+        KOKSMA__TRY(take_triangles(p, e, e->count - i, &taken));
+        KOKSMA__TRY(taken ? KOKSMA_OK : take_item(p, e, i, vertices));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* Allocates the vertices and the arrays for their properties. */
@@ -541,16 +537,19 @@ static koksma_status make_mesh(ply *p)
 static koksma_status finish(ply *p)
 {
     koksma__file_material *white = NULL;
-    koksma__fan_finish(&p->indices, &p->mesh);
-    p->out->unread.vertex_colours = p->coloured;
-    koksma_status status = koksma__file_take_mesh(p->out, &p->mesh, 0);
-    status = status ? status : koksma__file_add_placement(p->out, 0, NULL);
-    status = status ? status : koksma__file_add_material(p->out, 1, &white);
-    if (!status && *p->texture) {
-        white->colour_map.name = strdup(p->texture);
-        status = white->colour_map.name ? KOKSMA_OK : koksma__fail_memory(sizeof p->texture);
+    if (p->indices.n) {
+        uint32_t *exact = realloc(p->indices.items, p->indices.n * sizeof *exact);
+        free(p->mesh.indices);
+        p->mesh.indices = exact ? exact : p->indices.items;
+        p->mesh.n_triangles = p->indices.n / 3;
+        p->indices = (koksma__list){0};
     }
-    return status;
+    p->out->unread.vertex_colours = p->coloured;
+    KOKSMA__TRY(koksma__file_take_mesh(p->out, &p->mesh, 0));
+    KOKSMA__TRY(koksma__file_add_placement(p->out, 0, koksma__identity_matrix));
+    KOKSMA__TRY(koksma__file_add_material(p->out, 1, &white));
+    white->colour_map.name = *p->texture ? strdup(p->texture) : NULL;
+    return *p->texture && !white->colour_map.name ? koksma__fail_memory(sizeof p->texture) : KOKSMA_OK;
 }
 
 koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__mesh_file *out)
@@ -567,8 +566,6 @@ koksma_status koksma__ply_read(const unsigned char *bytes, size_t size, koksma__
     }
     status = status ? status : finish(p);
     koksma__mesh_fini(&p->mesh);
-    free(p->corners.items);
-    free(p->indices.items);
-    free(p);
+    KOKSMA__FREE(p->corners.items, p->indices.items, p);
     return status;
 }

@@ -2,7 +2,7 @@
 /*
  * Opens mesh files with the reader for the ending of their name, and joins the contents of a file into one mesh: the
  * file's meshes one after the other, each transformed by its placement. A file with one mesh placed once at the
- * identity, as PLY and OFF files are, becomes the result without a copy. The result has normals (or texture
+ * identity, as PLY files are, becomes the result without a copy. The result has normals (or texture
  * coordinates) if all its parts have them.
  */
 #include <stdlib.h>
@@ -43,7 +43,6 @@ typedef struct reader {
 static const reader readers[] = {{".obj", koksma__obj_read, check_start, 3, false},
                                  {".ply", koksma__ply_read, check_start, 3, false},
                                  {".ply.gz", koksma__ply_read, check_gzip, 1, true},
-                                 {".off", koksma__off_read, check_start, 3, false},
                                  {".gltf", koksma__gltf_read, check_start, 6, false},
                                  {".glb", koksma__gltf_read, check_start, 6, false},
                                  {".serialized", koksma__serialized_read, koksma__serialized_start, 1, false}};
@@ -69,14 +68,9 @@ bool koksma__is_mesh_file(const char *path)
 static koksma_status unpack(const unsigned char **bytes, size_t *size, koksma__mesh_file *out)
 {
     unsigned char *unpacked = NULL;
-    koksma_status status =
+    const koksma_status status =
         koksma__inflate_all(*bytes, *size, (size_t)koksma__file_most(KOKSMA__FILE_MESH), &unpacked, size);
-    unsigned char **kept = status ? NULL : koksma__list_add(&out->owned, 1, sizeof *kept);
-    if (!kept) {
-        free(unpacked);
-        return status ? koksma__fail_in(status, out->path) : KOKSMA_MEMORY;
-    }
-    *kept = unpacked;
+    KOKSMA__TRY(status ? koksma__fail_in(status, out->path) : koksma__file_keep(out, unpacked));
     *bytes = unpacked;
     return *size ? KOKSMA_OK : koksma__fail(KOKSMA_MALFORMED, "%s: empty", out->path);
 }
@@ -90,15 +84,10 @@ static koksma_status read_meshes(koksma__named by, bool hashed, koksma__mesh_fil
     size_t size = 0;
     const reader *how = find_reader(path);
     KOKSMA__FAIL_IF(!how, KOKSMA_MALFORMED,
-                    "%s: a mesh file's name ends in .obj, .ply, .ply.gz, .off, .gltf, .glb or .serialized", path);
+                    "%s: a mesh file's name ends in .obj, .ply, .ply.gz, .gltf, .glb or .serialized", path);
     KOKSMA__TRY(koksma__file_count(out->sizes, path));
     KOKSMA__TRY(koksma__read_file(path, KOKSMA__FILE_MESH, by, how->check, &read, &size));
-    unsigned char **kept = koksma__list_add(&out->owned, 1, sizeof *kept);
-    if (!kept) {
-        free(read);
-        return KOKSMA_MEMORY;
-    }
-    *kept = read;
+    KOKSMA__TRY(koksma__file_keep(out, read));
     const unsigned char *bytes = read;
     KOKSMA__FAIL_IF(!size, KOKSMA_MALFORMED, "%s: empty", path);
     out->hash = hashed ? how->times * koksma__hash(bytes, size) : 0;
@@ -113,8 +102,6 @@ koksma_status koksma__mesh_file_read(const char *path, koksma__named by, koksma_
 }
 
 /* ---- One mesh ------------------------------------------------------------------------------- */
-
-static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 /* Appends vertices transformed by matrix, and normals transformed by its inverse transpose; `sign` cancels the sign
    of the determinant. */
@@ -182,7 +169,7 @@ koksma_status koksma__mesh_read(const char *path, koksma__named by, koksma__file
     koksma_status status = read_meshes(by, false, &f);
     if (!status) {
         const koksma__file_placement *first = f.placements.items;
-        if (f.placements.n == 1 && !memcmp(first->matrix, identity, sizeof identity)) {
+        if (f.placements.n == 1 && !memcmp(first->matrix, koksma__identity_matrix, sizeof koksma__identity_matrix)) {
             koksma__mesh *mesh = &koksma__file_mesh_at(&f, first->mesh)->mesh;
             memcpy(mesh->name, out->name, sizeof mesh->name);
             *out = *mesh;

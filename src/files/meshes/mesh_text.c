@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Lines, words and numbers of text in memory, for the readers of OBJ, MTL, PLY and OFF.
+ * Lines, words and numbers of text in memory, for the readers of OBJ, MTL and PLY.
  *
  * A decimal number w 10^e of up to 19 digits, w below 2^53 and |e| <= 18, is computed by one correctly rounded
  * operation on two exact doubles (Clinger, "How to read floating point numbers accurately", 1990). Rounding that
@@ -44,12 +44,10 @@ bool koksma__text_line(koksma__text *t)
     return true;
 }
 
-koksma_status koksma__text_full_line(koksma__text *t, char comment)
+koksma_status koksma__text_full_line(koksma__text *t)
 {
     const char *rest;
     while (koksma__text_line(t)) {
-        const char *cut = comment ? memchr(t->at, comment, (size_t)(t->stop - t->at)) : NULL;
-        t->stop = cut ? cut : t->stop;
         koksma__text span = *t;
         if (koksma__text_rest(&span, &rest)) {
             return KOKSMA_OK;

@@ -21,9 +21,8 @@ koksma__text koksma__text_open(const char *path, const unsigned char *file, size
 /* Goes to the next line, whose end (LF or CR LF) is not part of it; returns false if there is none. */
 bool koksma__text_line(koksma__text *t);
 
-/* Goes to the next line that is neither empty nor only a comment; `comment` is the character that begins comments (0:
-   there are none), and the line is cut before it. Errors: MALFORMED (there is none). */
-koksma_status koksma__text_full_line(koksma__text *t, char comment);
+/* Goes to the next line that is not empty. Errors: MALFORMED (there is none). */
+koksma_status koksma__text_full_line(koksma__text *t);
 
 /* Fails with MALFORMED and the text "PATH: line N: REASON". */
 koksma_status koksma__text_wrong(const koksma__text *t, const char *reason);
