@@ -6,7 +6,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     koksma_image image = {0};
-    if (koksma__format_jpg.recognises(bytes, size)) {
+    if (koksma__image_recognises(&koksma__format_jpg, bytes, size)) {
         fuzz_check_status(koksma__format_jpg.read(bytes, size, KOKSMA__IMAGE_COLOURS, &image));
         koksma_image_fini(&image);
     }

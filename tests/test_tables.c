@@ -34,7 +34,7 @@ TEST_CASE(formats_know_their_files_only)
     for (size_t i = 0; koksma__image_format_at(i); i++) {
         const koksma__image_format *format = koksma__image_format_at(i);
         for (size_t k = 0; k < 4 && !format->left_out; k++) {
-            assert_int_equal(format->recognises((const unsigned char *)heads[k].head, 8),
+            assert_int_equal(koksma__image_recognises(format, (const unsigned char *)heads[k].head, 8),
                              !strcmp(format->name, heads[k].format));
         }
     }

@@ -82,7 +82,6 @@ INTERNAL = {
     "src/engine/core/capacity.h": "memory: arrays that grow",
     "src/engine/core/clock.h": "clocks",
     "src/files/image/formats.h": "image files, one .c file a format",
-    "src/files/image/codec.h": "the formats whose library is a module",
     "src/files/image/coherence.h": "spectra of pictures and of their errors",
     "src/files/meshes/readers.h": "the readers of mesh files, one .c file a format",
     "src/files/meshes/mesh_file.h": "mesh files and their readers' common parts",

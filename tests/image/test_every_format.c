@@ -54,7 +54,7 @@ TEST_CASE(images_come_back)
             koksma_image image = picture(shapes[s / 2][0], shapes[s / 2][1], channels, 70 + (uint64_t)s), back = {0};
             koksma__bytes bytes = file_of(format, &(koksma_layer){"", &image}, 1);
             for (size_t g = 0; koksma__image_format_at(g); g++) {
-                assert_that(koksma__image_format_at(g)->recognises(bytes.data, bytes.size) == (f == g),
+                assert_that(koksma__image_recognises(koksma__image_format_at(g), bytes.data, bytes.size) == (f == g),
                             "a file of %s asked of %s", format->name, koksma__image_format_at(g)->name);
             }
             assert_ok(koksma__image_read_bytes(bytes.data, bytes.size, KOKSMA__FILE_IMAGE, &back));

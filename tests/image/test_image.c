@@ -30,7 +30,7 @@ static koksma__bytes written(const char *format, const koksma_image *image)
     }
     const koksma_layer only = {"", image};
     assert_ok(f->write(&only, 1, "what it is", &bytes));
-    assert_true(f->recognises(bytes.data, bytes.size));
+    assert_true(koksma__image_recognises(f, bytes.data, bytes.size));
     return bytes;
 }
 

@@ -247,15 +247,21 @@ koksma_status koksma_coherence_add(koksma_coherence *coherence, const koksma_ima
  */
 enum { TERMS = 1000000, HALVINGS = 200 };
 
-/* The logarithm of P(k, x) for x up to about k + 1, by the series 6.5.29 of Abramowitz & Stegun 1964. */
-static double log_series(double k, double x)
+/* The sum of x^j / ((k + 1) ... (k + j)) over j >= 0, for x up to about k + 1. */
+static double series(double k, double x)
 {
     double term = 1, sum = 1;
     for (int j = 1; j < TERMS && term > 1e-17 * sum; j++) {
         term *= x / (k + j);
         sum += term;
     }
-    return k * koksma__log(x) - x - koksma__log_gamma(k + 1) + koksma__log(sum);
+    return sum;
+}
+
+/* The logarithm of P(k, x) for x up to about k + 1, by the series 6.5.29 of Abramowitz & Stegun 1964. */
+static double log_series(double k, double x)
+{
+    return k * koksma__log(x) - x - koksma__log_gamma(k + 1) + koksma__log(series(k, x));
 }
 
 /* Q(k, x) for x above k + 1, by Lentz's method on the continued fraction 6.5.31 of Abramowitz & Stegun. */
@@ -298,12 +304,7 @@ static double wave_tail(const koksma__coherence_law *law, double x)
     }
     const double k = images - 1, z = x / b, rest = 1 - b / a, y = z * rest;
     if (y < k + 1) { /* (1 - b/a)^-k and y^k are multiplied as logarithms, as each may overflow alone */
-        double term = 1, sum = 1;
-        for (int j = 1; j < TERMS && term > 1e-17 * sum; j++) {
-            term *= y / (k + j);
-            sum += term;
-        }
-        return upper_gamma(k, z) + sum * koksma__exp(k * koksma__log(z) - z - koksma__log_gamma(k + 1));
+        return upper_gamma(k, z) + series(k, y) * koksma__exp(k * koksma__log(z) - z - koksma__log_gamma(k + 1));
     }
     return upper_gamma(k, z) + koksma__exp(-x / a - k * koksma__log(rest)) * (1 - upper_fraction(k, y));
 }
@@ -470,15 +471,9 @@ static void find_peak(const koksma_coherence *c, const rings *r, koksma_coherenc
 void koksma_coherence_find(const koksma_coherence *coherence, koksma_coherence_values *out)
 {
     KOKSMA__REQUIRE_OR(, coherence, out);
-    *out = (koksma_coherence_values){.coherence = NAN,
-                                     .low = NAN,
-                                     .high = NAN,
-                                     .frequency_x = NAN,
-                                     .frequency_y = NAN,
-                                     .common = NAN,
-                                     .noise_low = NAN,
-                                     .noise_high = NAN,
-                                     .p = NAN};
+    *out = (koksma_coherence_values){0};
+    out->coherence = out->low = out->high = out->frequency_x = out->frequency_y = NAN;
+    out->common = out->noise_low = out->noise_high = out->p = NAN;
     rings r;
     if (coherence->images == 0 || check_open(coherence)) {
         return;

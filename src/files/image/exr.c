@@ -19,16 +19,10 @@
 #include <string.h>
 
 #include "core/vector.h"
-#include "image/codec.h"
+#include "image/formats.h"
 
 static const koksma__module module = {
     "exr", "OpenEXR", {koksma__fail, koksma__fail_memory, &koksma__codec_functions}};
-
-static bool recognises(const unsigned char *bytes, size_t size)
-{
-    static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
-    return size >= 4 && !memcmp(bytes, magic, 4);
-}
 
 enum { MOST_ATTRIBUTES = 4096, MOST_CHANNELS = 4096 };
 
@@ -191,5 +185,9 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return koksma__codec_write(&module, layers, n, metadata, out);
 }
 
-const koksma__image_format koksma__format_exr = {
-    .name = "exr", .recognises = recognises, .read = read, .write = write, .has_layers = true, .module = &module};
+const koksma__image_format koksma__format_exr = {.name = "exr",
+                                                 .magic = {"\x76\x2f\x31\x01"},
+                                                 .read = read,
+                                                 .write = write,
+                                                 .has_layers = true,
+                                                 .module = &module};

@@ -24,7 +24,7 @@
 
 #include <OpenEXR/ImfCRgbaFile.h>
 
-#include "image/codec.h"
+#include "image/formats.h"
 #include "modules/module_side.h"
 
 enum { SHORT_NAME = 31 }; /* the longest channel name, in bytes, that every EXR reader accepts */

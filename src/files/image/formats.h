@@ -22,7 +22,7 @@ typedef enum koksma__image_part {
 
 typedef struct koksma__image_format {
     const char *name;
-    bool (*recognises)(const unsigned char *bytes, size_t size);
+    const char *magic[2]; /* files begin with one of them */
     /* Reads a part of an image; the transparency is an image of one channel, 1 where a pixel is opaque, which is empty if
        the file has none. Errors do not name the file: the caller puts its name in front of the text. On failure the caller
        releases *out. */
@@ -76,6 +76,9 @@ koksma_status koksma__image_check_start(const unsigned char *bytes, size_t size)
 koksma_status koksma__image_write_in(const char *folder, const char *name, const koksma_image *image,
                                      const char *metadata);
 
+/* Whether a file begins like those of a format. */
+bool koksma__image_recognises(const koksma__image_format *format, const unsigned char *bytes, size_t size);
+
 /* Format i of the table; NULL past the end. */
 const koksma__image_format *koksma__image_format_at(size_t i);
 
@@ -84,4 +87,31 @@ const koksma__image_format *koksma__image_format_at(size_t i);
 koksma_status koksma__image_read_bytes(const unsigned char *bytes, size_t size, koksma__file_kind kind,
                                        koksma_image *out);
 
+/* ---- Codecs in modules ---- */
+
+/* Functions that a module provides; koksma__image_format says what they do. */
+typedef struct koksma__codec {
+    koksma_status (*read)(const unsigned char *bytes, size_t size, koksma_image *out);
+    koksma_status (*write)(const koksma_layer *layers, size_t n, const char *metadata, koksma__bytes *out);
+} koksma__codec;
+
+/* Functions that the library provides to a module. */
+typedef struct koksma__codec_host {
+    bool (*bytes_put)(koksma__bytes *bytes, size_t offset, const void *data, size_t size);
+    koksma_status (*image_claim)(long long width, long long height, int channels, size_t bytes, double pixels_a_byte,
+                                 koksma_image *out);
+    void (*layer_channel)(const koksma_layer *layer, int k, char name[KOKSMA__CHANNEL_NAME]);
+    size_t (*layers_find)(const koksma_layer *layers, size_t n, const char *wanted, int *k);
+    void (*image_fini)(koksma_image *image);
+} koksma__codec_host;
+
+#define KOKSMA__CODEC_HOST ((const koksma__codec_host *)koksma__own_host->functions)
+
+extern const koksma__codec_host koksma__codec_functions;
+
+/* Read and write by a module. Errors: those of koksma__module_load and of the module. */
+koksma_status koksma__codec_read(const koksma__module *module, const unsigned char *bytes, size_t size,
+                                 koksma_image *out);
+koksma_status koksma__codec_write(const koksma__module *module, const koksma_layer *layers, size_t n,
+                                  const char *metadata, koksma__bytes *out);
 #endif

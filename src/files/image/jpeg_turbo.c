@@ -20,7 +20,7 @@
 
 #include <jerror.h>
 
-#include "image/codec.h"
+#include "image/formats.h"
 #include "modules/module_side.h"
 
 enum { SCANS = 100, PADDING = 16 };

@@ -1,18 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* JPEG as an image format. This file recognises JPEG files. The module koksma-jpeg.so, which is loaded when the first
    JPEG file is read or written, does the reading and writing. */
-#include <string.h>
-
-#include "image/codec.h"
+#include "image/formats.h"
 
 static const koksma__module module = {
     "jpeg", "libjpeg-turbo", {koksma__fail, koksma__fail_memory, &koksma__codec_functions}};
-
-static bool recognises(const unsigned char *bytes, size_t size)
-{
-    static const unsigned char magic[3] = {0xff, 0xd8, 0xff};
-    return size >= 3 && !memcmp(bytes, magic, 3);
-}
 
 static koksma_status read(const unsigned char *bytes, size_t size, koksma__image_part part, koksma_image *out)
 {
@@ -27,7 +19,7 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
 
 /* The error is that of four levels at 1, where the sRGB curve is steepest. */
 const koksma__image_format koksma__format_jpg = {.name = "jpg",
-                                                 .recognises = recognises,
+                                                 .magic = {"\xff\xd8\xff"},
                                                  .read = read,
                                                  .write = write,
                                                  .error = 4.0 / 255 * 2.4 / 1.055,

@@ -15,12 +15,6 @@
 #include "core/status.h"
 #include "image/formats.h"
 
-static bool recognises(const unsigned char *bytes, size_t size)
-{
-    return size >= 3 && bytes[0] == 'P' && (bytes[1] == 'f' || bytes[1] == 'F') &&
-           (bytes[2] == '\n' || bytes[2] == ' ' || bytes[2] == '\r');
-}
-
 static float get_float(const unsigned char *b, bool little)
 {
     const uint32_t word = little ? (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0]
@@ -115,5 +109,4 @@ static koksma_status write(const koksma_layer *layers, size_t n, const char *met
     return ok ? KOKSMA_OK : koksma__fail_memory(4 * row * (size_t)image->height);
 }
 
-const koksma__image_format koksma__format_pfm = {
-    .name = "pfm", .recognises = recognises, .read = read, .write = write};
+const koksma__image_format koksma__format_pfm = {.name = "pfm", .magic = {"PF", "Pf"}, .read = read, .write = write};

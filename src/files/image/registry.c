@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Reads and writes image files in the formats of formats.def; checks which layers may be written together, and names their
    channels. */
-#include "image/codec.h"
+#include "image/formats.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -21,6 +21,16 @@ static const koksma__image_format *const formats[] = {
 const koksma__image_format *koksma__image_format_at(size_t i)
 {
     return i < sizeof formats / sizeof *formats ? formats[i] : NULL;
+}
+
+bool koksma__image_recognises(const koksma__image_format *format, const unsigned char *bytes, size_t size)
+{
+    bool begins = false;
+    for (int k = 0; k < 2 && format->magic[k]; k++) {
+        const size_t length = strlen(format->magic[k]);
+        begins |= size >= length && !memcmp(bytes, format->magic[k], length);
+    }
+    return begins;
 }
 
 /* The library that a format needs and this build lacks, or NULL. */
@@ -65,7 +75,7 @@ static koksma_status find_format(const unsigned char *bytes, size_t size, const 
 {
     char names[128];
     for (size_t i = 0; formats[i]; i++) {
-        if (formats[i]->recognises(bytes, size)) {
+        if (koksma__image_recognises(formats[i], bytes, size)) {
             *out = formats[i];
             return missing(formats[i]) ? no_library(formats[i]) : KOKSMA_OK;
         }

@@ -201,10 +201,8 @@ static koksma_status load(koksma__json *d)
 {
     json_error_t error;
     char reason[REASON];
-    koksma_status status = read_text(d, &error);
-    status = status || d->root ? status : read_text(d, &error);
-    if (status) {
-        return status;
+    for (int i = 0; i < 2 && !d->root; i++) {
+        KOKSMA__TRY(read_text(d, &error));
     }
     return d->root ? KOKSMA_OK
                    : koksma__fail(KOKSMA_MALFORMED, "%s '%s': line %d: %s", d->kind, d->name,
@@ -268,13 +266,22 @@ static bool other_spelling(const char *key, char *other, size_t size)
     return false;
 }
 
-/* Finds the member of an object whose key has the given spelling, British or American, or the other one; NULL if
-   there is none. */
+/* The key of an object's member in the given spelling, British or American, or the other one, which is written to `other`;
+   NULL if there is none. */
+static const char *spelt(const json_t *object, const char *key, char other[KOKSMA__JSON_PATH])
+{
+    if (json_object_get(object, key)) {
+        return key;
+    }
+    return other_spelling(key, other, KOKSMA__JSON_PATH) && json_object_get(object, other) ? other : NULL;
+}
+
+/* Finds the member in either spelling; NULL if there is none. */
 static const json_t *find(const json_t *object, const char *key)
 {
     char other[KOKSMA__JSON_PATH];
-    const json_t *value = json_object_get(object, key);
-    return value || !other_spelling(key, other, sizeof other) ? value : json_object_get(object, other);
+    const char *found = spelt(object, key, other);
+    return found ? json_object_get(object, found) : NULL;
 }
 
 static const char *key_at(const void *keys, size_t i)
@@ -408,21 +415,18 @@ static const char *member_key_at(const void *object, size_t i)
 
 koksma_status koksma__json_member(const koksma__json_node *node, const char *key, koksma__json_node *out)
 {
-    const json_t *value = find(node->value, key);
+    char other[KOKSMA__JSON_PATH];
+    const char *found = spelt(node->value, key, other);
     KOKSMA__JSON_FAIL_IF(!json_is_object((const json_t *)node->value), node, "it takes an object, {…}");
-    if (!value) {
+    if (!found) {
         const char *closest = koksma_closest_name(key, member_key_at, node->value);
         return closest ? koksma__json_fail(node, "field '%s' is missing; is '%s' meant?", key, closest)
                        : koksma__json_fail(node, "field '%s' is missing", key);
     }
     const koksma__json_node parent = *node;
-    char other[KOKSMA__JSON_PATH];
-    if (!json_object_get(parent.value, key) && other_spelling(key, other, sizeof other)) {
-        key = other;
-    }
-    void *here = json_object_iter_at((json_t *)(uintptr_t)parent.value, key);
-    *out = below(&parent, value, json_object_iter_key(here), 0);
-    snprintf(out->path, sizeof out->path, "%.90s%s%.32s", parent.path, *parent.path ? "." : "", key);
+    void *here = json_object_iter_at((json_t *)(uintptr_t)parent.value, found);
+    *out = below(&parent, json_object_iter_value(here), json_object_iter_key(here), 0);
+    snprintf(out->path, sizeof out->path, "%.90s%s%.32s", parent.path, *parent.path ? "." : "", found);
     return KOKSMA_OK;
 }
 
@@ -480,15 +484,13 @@ koksma_status koksma__json_text(const koksma__json_node *node, const char **out)
 koksma_status koksma__json_numbers(const koksma__json_node *node, double min, double max, size_t n, double *out)
 {
     size_t length = 0;
-    koksma_status status = koksma__json_length(node, SIZE_MAX, &length);
-    if (!status && length != n) {
-        status = koksma__json_fail(node, "it takes %zu numbers, but has %zu items", n, length);
-    }
-    for (size_t i = 0; !status && i < n; i++) {
+    KOKSMA__TRY(koksma__json_length(node, SIZE_MAX, &length));
+    KOKSMA__JSON_FAIL_IF(length != n, node, "it takes %zu numbers, but has %zu items", n, length);
+    for (size_t i = 0; i < n; i++) {
         const koksma__json_node item = koksma__json_item(node, i);
-        status = koksma__json_number(&item, min, max, &out[i]);
+        KOKSMA__TRY(koksma__json_number(&item, min, max, &out[i]));
     }
-    return status;
+    return KOKSMA_OK;
 }
 
 /* ---- Members --------------------------------------------------------------------------------------------- */

@@ -102,13 +102,10 @@ static koksma_status read_image(const char *path, numbers *n)
     koksma_status status = koksma__image_read_part(bytes, size, KOKSMA__IMAGE_NUMBERS, &colours);
     status = status ? status : koksma__image_read_part(bytes, size, KOKSMA__IMAGE_ALPHA, &alpha);
     status = status ? status : join(&colours, &alpha, n);
-    if (!status) {
-        for (size_t i = 0; koksma__image_format_at(i); i++) {
-            const koksma__image_format *format = koksma__image_format_at(i);
-            if (format->recognises(bytes, size) && format->error > 0) {
-                centre_levels(n);
-                break;
-            }
+    for (size_t i = 0; !status && koksma__image_format_at(i); i++) {
+        const koksma__image_format *format = koksma__image_format_at(i);
+        if (koksma__image_recognises(format, bytes, size) && format->error > 0) {
+            centre_levels(n);
         }
     }
     free(bytes);

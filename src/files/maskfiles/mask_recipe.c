@@ -19,16 +19,6 @@ void koksma_mask_recipe_fini(koksma_mask_recipe *recipe)
     }
 }
 
-/* Writes the state of the search. */
-static void write_state(koksma__json_writer *w, const koksma_mask_options *o)
-{
-    koksma__json_begin_array(w, "state");
-    for (size_t p = 0; p < (size_t)o->width * (size_t)o->height; p++) {
-        koksma__json_write_whole(w, NULL, o->state[p]);
-    }
-    koksma__json_end(w);
-}
-
 static const char *text_or_null(const char *text)
 {
     return *text ? text : NULL;
@@ -76,7 +66,11 @@ koksma_status koksma_mask_write_recipe(const char *path, const koksma_mask_recip
     }
     koksma__json_end(&w);
     if (o->state && !result->finished) {
-        write_state(&w, o);
+        koksma__json_begin_array(&w, "state");
+        for (size_t p = 0; p < (size_t)o->width * (size_t)o->height; p++) {
+            koksma__json_write_whole(&w, NULL, o->state[p]);
+        }
+        koksma__json_end(&w);
     }
     koksma__json_end(&w);
     KOKSMA__TRY(koksma__json_finish(&w, &text, &size));
