@@ -3,7 +3,7 @@
 """file_plans.py PROGRAM FAULTS: small plans that ask for much work before a study starts.
 
 A plan's check tries its patterns and measures with its numbers of points, and a few kilobytes name any number of pairs: many
-sizes with many points, many patterns with many sizes, many coordinates, many reads of one file, one scene in many blocks, a table of many rows and sizes. Each of these plans ends
+sizes with many points, many patterns with many sizes, many coordinates, many reads of one file, one scene in many blocks. Each of these plans ends
 with an unknown field, which is reported after all trials: the limit of processor time is what they are tested against. Lists
 whose jobs are more than the limits are refused before any is made; a family of many files is listed once, not for each size.
 """
@@ -55,43 +55,6 @@ def check_options(checks, folder):
              "options": options, "references": [{"name": "r", "pattern": "random", "spp": 1}]}
     check(checks, folder, "combinations of options", {"images": 2000 * [block]},
           "images[65]: with it the blocks have more than 65536 combinations of options")
-
-
-def check_figures(checks, folder):
-    """A page of a gigabyte: 100 bytes for each point."""
-    figures = [{"id": f"f{i}", "title": "f", "pattern": "random", "n": 1 << 20} for i in range(11)]
-    block = {"patterns": ["random"], "measures": ["star"], "n": [4], "trials": 1}
-    check(checks, folder, "figures of many points", {"discrepancies": [block], "figures": figures},
-          "figures[4]: with it the figures draw more than 4194304 points and lines together")
-    for name in "ab":
-        with open(os.path.join(folder, f"{name}.json"), "w", encoding="ascii") as stream:
-            json.dump({"name": name, "title": name, "discrepancies": [block], "figures": figures[:3]}, stream)
-    done = files.run(os.path.abspath(sys.argv[1]), "study", "run", "./a.json", "./b.json", "-q", "-o", "out", cwd=folder)
-    checks.refused("figures of two plans", done, 3, "plan './b.json': line 1: figures[1]: with it the figures draw more")
-
-
-def check_tables(checks, folder):
-    """Rows that the last of many blocks makes, in a table of as many sizes as it has points."""
-    sizes = list(range(1, 9))
-    blocks = [{"patterns": ["random"], "measures": ["star"], "n": [i], "trials": 1} for i in range(9, 4009)]
-    table = {"id": "t", "title": "t", "measure": "star", "n": sizes, "rows": 4000 * [{"pattern": "random", "label": "r", "published": [1]}]}
-    check(checks, folder, "rows, sizes and blocks", {"discrepancies": blocks + [dict(blocks[0], n=sizes)], "tables": [table]},
-          "tables[0]: finding what tables and questions refer to takes more than 2^28 steps")
-
-
-def check_groups(checks, folder):
-    """Scenes of groups, which the last of many blocks has under other names than the ones before."""
-    put_scene(folder)
-    names = other_names()
-    block = {"id": "b", "patterns": ["random"], "spp": [1], "trials": 1,
-             "references": [{"name": "r", "pattern": "random", "spp": 1}]}
-    other = [name.replace("./", ".//", 1) for name in names]
-    questions = [{"id": "q", "title": "q", "kind": "correlation", "discrepancies": "d", "images": "b",
-                  "groups": [{"title": f"g{i}", "scenes": other} for i in range(8)]}]
-    points = {"id": "d", "patterns": ["random"], "measures": ["star"], "n": [4], "trials": 1}
-    check(checks, folder, "scenes of groups", {"discrepancies": [points], "questions": questions,
-                                               "images": 15 * [dict(block, scenes=names)] + [dict(block, scenes=other)]},
-          "finding what tables and questions refer to takes more than 2^28 steps")
 
 
 def check_scenes(checks, folder):
@@ -168,10 +131,7 @@ def main():
         block = {"patterns": korobov, "measures": ["star"], "n": list(range(1, 4097)), "trials": 1, "skip": True}
         check(checks, folder, "many pairs in many blocks", {"discrepancies": 40 * [block]},
               "discrepancies[1]: with it the blocks have more than 33554432 pairs")
-        check_groups(checks, folder)
         check_scenes(checks, folder)
-        check_tables(checks, folder)
-        check_figures(checks, folder)
         check_options(checks, folder)
         check_limits(checks, folder)
         check_family(checks, folder)

@@ -10,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include <koksma/image.h>
 #include <koksma/integrate.h>
@@ -281,45 +280,6 @@ void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash
     if (n && used < KOKSMA__HASH_TEXT) {
         snprintf(out + used, KOKSMA__HASH_TEXT - used, "%s%016llx", used ? "+" : "", (unsigned long long)all);
     }
-}
-
-/* Finding one of a family's files takes as long as reading so many bytes for each of them. */
-enum { LOOK_UP = 4096 };
-
-static uint64_t length_of(const char *path)
-{
-    struct stat about;
-    return stat(path, &about) ? 0 : (uint64_t)about.st_size;
-}
-
-static uint64_t length_of_family(const char *path)
-{
-    koksma__file_set *sets = NULL;
-    size_t count = 0;
-    uint64_t longest = 0;
-    if (!koksma__file_sets(path, &sets, &count)) {
-        for (size_t i = 0; i < count; i++) {
-            char name[KOKSMA_MAX_SPEC];
-            const uint64_t length = koksma__file_name(path, sets[i].n, sets[i].seed, name) ? 0 : length_of(name);
-            longest = length > longest ? length : longest;
-        }
-    }
-    free(sets);
-    return longest + (uint64_t)count * LOOK_UP;
-}
-
-uint64_t koksma__points_files_length(const koksma__row_texts *row)
-{
-    char path[KOKSMA_MAX_SPEC];
-    const koksma_spec *spec;
-    walk w = begin_walk(row);
-    uint64_t all = 0;
-    while ((spec = next_operand(&w))) {
-        if (find_path(spec, path) && !spec->pattern->runs_code) {
-            all += is_family(spec) ? length_of_family(path) : length_of(path);
-        }
-    }
-    return all;
 }
 
 bool koksma__points_read_files(const koksma__row_texts *row)

@@ -64,10 +64,6 @@ void koksma__hash_with_points(koksma__point_files *known, const char *scene_hash
 /* Whether a row names any files but programs and libraries. */
 bool koksma__points_read_files(const koksma__row_texts *row);
 
-/* The length in bytes of these files together, as a measure of the time to read one set; of a family, that of its longest
-   file and 4096 for each of its files, whose names are looked at. */
-uint64_t koksma__points_files_length(const koksma__row_texts *row);
-
 void koksma__point_files_fini(koksma__point_files *known);
 
 #endif

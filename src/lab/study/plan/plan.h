@@ -244,8 +244,6 @@ typedef struct koksma__plan_totals {
     long long work;  /* coordinates of the trials of sets (plan_sets.c) */
     uint64_t pairs;  /* patterns and measures x sizes, of all blocks */
     size_t variants; /* combinations of options, of all blocks of images */
-    uint64_t steps;  /* comparisons that find what tables and questions refer to */
-    long long drawn; /* points and lines in figures */
 } koksma__plan_totals;
 
 /* Options of a run that change a plan's numbers of trials, and where the plan comes from. */

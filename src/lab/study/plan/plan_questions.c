@@ -98,23 +98,19 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
                                       (void **)&q->groups, &q->n_groups);
 }
 
-/* Finds whether an image block that the question names has the scene. */
-static koksma_status find_scene(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                const koksma__plan *p, const koksma__question *q, const char *scene, bool *found)
+/* Whether an image block that the question names has the scene. */
+static bool has_scene(const koksma__plan *p, const koksma__question *q, const char *scene)
 {
-    *found = false;
-    for (size_t b = 0; b < p->n_images && !*found; b++) {
+    bool found = false;
+    for (size_t b = 0; b < p->n_images && !found; b++) {
         const koksma__image_block *i = &p->images[b];
-        const bool is_meant = i->id && !strcmp(i->id, q->images);
-        *found = is_meant && koksma__texts_have(&i->scenes, scene);
-        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + (is_meant ? i->scenes.n : 0)));
+        found = i->id && !strcmp(i->id, q->images) && koksma__texts_have(&i->scenes, scene);
     }
-    return KOKSMA_OK;
+    return found;
 }
 
 /* Checks that no two groups have the same title and that all their scenes are in the question's blocks. */
-static koksma_status check_groups(const koksma__json_node *question, const koksma__plan_trials *trials,
-                                  const koksma__plan *p, const koksma__question *q)
+static koksma_status check_groups(const koksma__json_node *question, const koksma__plan *p, const koksma__question *q)
 {
     koksma__json_node list, scenes;
     koksma_status status = q->n_groups ? koksma__json_member(question, "groups", &list) : KOKSMA_OK;
@@ -124,23 +120,17 @@ static koksma_status check_groups(const koksma__json_node *question, const koksm
             KOKSMA__JSON_FAIL_IF(!strcmp(q->groups[before].title, q->groups[g].title), &group,
                                  "title '%s': another group has the same title", q->groups[g].title);
         }
-        KOKSMA__TRY(koksma__plan_step(&group, trials, g));
         status = koksma__json_member(&group, "scenes", &scenes);
         for (size_t s = 0; !status && s < q->groups[g].scenes.n; s++) {
             const koksma__json_node item = koksma__json_item(&scenes, s);
-            bool found;
-            status = find_scene(&item, trials, p, q, q->groups[g].scenes.at[s], &found);
-            if (!status && !found) {
-                status = koksma__json_fail(&item, "no block of images '%s' has the scene '%s'", q->images,
-                                           q->groups[g].scenes.at[s]);
-            }
+            KOKSMA__JSON_FAIL_IF(!has_scene(p, q, q->groups[g].scenes.at[s]), &item,
+                                 "no block of images '%s' has the scene '%s'", q->images, q->groups[g].scenes.at[s]);
         }
     }
     return status;
 }
 
-koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                           const koksma__plan *p)
+koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan *p)
 {
     for (size_t i = 0; i < p->n_questions; i++) {
         const koksma__question *q = &p->questions[i];
@@ -155,10 +145,9 @@ koksma_status koksma__plan_check_questions(const koksma__json_node *root, const 
         koksma__json_node questions;
         koksma__json_member(root, "questions", &questions);
         const koksma__json_node node = koksma__json_item(&questions, i);
-        KOKSMA__TRY(koksma__plan_step(&node, trials, p->n_discrepancies + p->n_images));
         KOKSMA__JSON_FAIL_IF(!discrepancies || !images, &node, "no block of the plan has the id '%s'",
                              discrepancies ? q->images : q->discrepancies);
-        KOKSMA__TRY(check_groups(&node, trials, p, q));
+        KOKSMA__TRY(check_groups(&node, p, q));
     }
     return KOKSMA_OK;
 }
@@ -231,12 +220,11 @@ koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksm
 
 /* ---- Whether the plan has what a conclusion names ---------------------------------------------------------- */
 
-static koksma_status check_tables(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                  const koksma__plan *p, const koksma__texts *ids, unsigned fields)
+static koksma_status check_tables(const koksma__json_node *node, const koksma__plan *p, const koksma__texts *ids,
+                                  unsigned fields)
 {
     for (size_t i = 0; i < ids->n; i++) {
         const koksma__table *t = koksma__plan_table_of(p, 0, ids->at[i]);
-        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_tables));
         KOKSMA__JSON_FAIL_IF(!t, node, "no table of the plan has the id '%s'", ids->at[i]);
         KOKSMA__JSON_FAIL_IF(fields & KOKSMA__NEEDS_IMAGES && !t->scene, node, "table %s is not one of a scene",
                              ids->at[i]);
@@ -247,13 +235,11 @@ static koksma_status check_tables(const koksma__json_node *node, const koksma__p
 }
 
 /* Checks that every pattern has a row in every table; in some: in one of them. */
-static koksma_status check_rows(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                const koksma__plan *p, const koksma__texts *ids, const koksma__texts *patterns,
-                                bool in_some)
+static koksma_status check_rows(const koksma__json_node *node, const koksma__plan *p, const koksma__texts *ids,
+                                const koksma__texts *patterns, bool in_some)
 {
     for (size_t i = 0, found = 0; i < ids->n * patterns->n; i++) {
         const koksma__table *t = koksma__plan_table_of(p, 0, ids->at[i % ids->n]);
-        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_tables + t->n_rows));
         found = (i % ids->n ? found : 0) + (koksma__plan_row_of(t, patterns->at[i / ids->n]) != NULL);
         KOKSMA__JSON_FAIL_IF(in_some ? i % ids->n + 1 == ids->n && !found : found <= i % ids->n, node,
                              "table %s has no row of %s", t->id, patterns->at[i / ids->n]);
@@ -262,12 +248,10 @@ static koksma_status check_rows(const koksma__json_node *node, const koksma__pla
 }
 
 /* Checks that figures are of adaptive methods and come in pairs. */
-static koksma_status check_figures(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                   const koksma__plan *p, const koksma__texts *ids)
+static koksma_status check_figures(const koksma__json_node *node, const koksma__plan *p, const koksma__texts *ids)
 {
     for (size_t i = 0; i < ids->n; i++) {
         const koksma__figure *f = koksma__plan_figure_of(p, 0, ids->at[i]);
-        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + p->n_figures));
         KOKSMA__JSON_FAIL_IF(!f || !f->adaptive, node, "no figure with the id '%s' has an adaptive method",
                              ids->at[i]);
     }
@@ -275,8 +259,8 @@ static koksma_status check_figures(const koksma__json_node *node, const koksma__
 }
 
 /* Checks that every block of the id has all patterns, and that there is one. */
-static koksma_status check_blocks(const koksma__json_node *node, const koksma__plan_trials *trials,
-                                  const koksma__plan *p, const koksma__conclusion *c, const koksma__texts *patterns)
+static koksma_status check_blocks(const koksma__json_node *node, const koksma__plan *p, const koksma__conclusion *c,
+                                  const koksma__texts *patterns)
 {
     const char *id = c->images ? c->images : c->discrepancies;
     const size_t n = c->images ? p->n_images : p->n_discrepancies;
@@ -284,7 +268,6 @@ static koksma_status check_blocks(const koksma__json_node *node, const koksma__p
     for (size_t b = 0; b < n && id; b++) {
         const char *of = c->images ? p->images[b].id : p->discrepancies[b].id;
         const koksma__texts *has = c->images ? &p->images[b].patterns : &p->discrepancies[b].patterns;
-        KOKSMA__TRY(koksma__plan_step(node, trials, 1 + patterns->n * has->n));
         for (size_t i = 0; of && !strcmp(of, id) && i < patterns->n; i++) {
             KOKSMA__JSON_FAIL_IF(!koksma__texts_have(has, patterns->at[i]), node, "a block '%s' lacks the pattern %s",
                                  id, patterns->at[i]);
@@ -294,8 +277,7 @@ static koksma_status check_blocks(const koksma__json_node *node, const koksma__p
     return found ? KOKSMA_OK : koksma__json_fail(node, "no block of the plan has the id '%s'", id);
 }
 
-koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                             const koksma__plan *p)
+koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, const koksma__plan *p)
 {
     koksma__json_node list;
     koksma_status status = p->n_conclusions ? koksma__json_member(root, "conclusions", &list) : KOKSMA_OK;
@@ -304,18 +286,18 @@ koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, cons
         const koksma__json_node node = koksma__json_item(&list, i);
         const koksma__texts *all[] = {&c->patterns, &c->against, &c->beside};
         const unsigned fields = c->kind->fields, sizes = fields & KOKSMA__NEEDS_SIZES;
-        status = check_tables(&node, trials, p, &c->tables,
+        status = check_tables(&node, p, &c->tables,
                               fields & KOKSMA__NEEDS_AGAINST ? 0
                               : sizes                        ? sizes
                                                              : KOKSMA__NEEDS_IMAGES);
-        status = status ? status : check_tables(&node, trials, p, &c->by, sizes);
-        status = status ? status : check_tables(&node, trials, p, &c->than, sizes);
-        status = status ? status : check_figures(&node, trials, p, &c->figures);
+        status = status ? status : check_tables(&node, p, &c->by, sizes);
+        status = status ? status : check_tables(&node, p, &c->than, sizes);
+        status = status ? status : check_figures(&node, p, &c->figures);
         for (size_t k = 0; !status && k < 3; k++) {
-            status = check_rows(&node, trials, p, &c->tables, all[k], sizes);
-            status = status ? status : check_rows(&node, trials, p, &c->by, all[k], false);
-            status = status ? status : check_rows(&node, trials, p, &c->than, all[k], false);
-            status = status ? status : check_blocks(&node, trials, p, c, all[k]);
+            status = check_rows(&node, p, &c->tables, all[k], sizes);
+            status = status ? status : check_rows(&node, p, &c->by, all[k], false);
+            status = status ? status : check_rows(&node, p, &c->than, all[k], false);
+            status = status ? status : check_blocks(&node, p, c, all[k]);
         }
     }
     return status;

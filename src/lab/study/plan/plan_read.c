@@ -25,7 +25,7 @@
 /* Reads and checks the figures of a plan. A figure shows points, random lines, a rendered scene, or the strata
    into which an adaptive method subdivided a pixel. */
 
-enum { MAX_N = 1 << 20, MAX_DRAWN = 1 << 22 };
+enum { MAX_N = 1 << 20 };
 #define MIN_EXPOSURE 1e-3
 #define MAX_EXPOSURE 1e3
 
@@ -89,7 +89,7 @@ static koksma_status get_lines(const koksma__json_node *node, koksma__figure *f)
     return status;
 }
 
-/* Reads an item of "figures"; checks that all together draw at most 2^22 points, as a page has them. */
+/* Reads an item of "figures". */
 static koksma_status parse_figure(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "id",       "title",  "pattern",  "scene", "n",
@@ -134,23 +134,6 @@ static koksma_status parse_figure(const koksma__json_node *node, const koksma__p
     }
     koksma__texts_fini(&variants);
     return status ? status : check_words(node, trials, f);
-}
-
-static koksma_status check_figures(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                   const koksma__plan *plan)
-{
-    long long *drawn = &trials->totals->drawn;
-    for (size_t i = 0; i < plan->n_figures; i++) {
-        *drawn += plan->figures[i].scene ? 0 : plan->figures[i].n;
-        if (*drawn > MAX_DRAWN) {
-            koksma__json_node figures;
-            koksma__json_member(root, "figures", &figures);
-            const koksma__json_node figure = koksma__json_item(&figures, i);
-            return koksma__json_fail(&figure, "with it the figures draw more than %d points and lines together",
-                                     MAX_DRAWN);
-        }
-    }
-    return KOKSMA_OK;
 }
 
 /* ---- Metrics ----------------------------------------------------------------------------------------------------- */
@@ -477,12 +460,11 @@ static koksma_status parse(const koksma__json_node *root, const koksma__plan_tri
     for (size_t i = 0; !status && !trials->stored && i < sizeof with_ids / sizeof *with_ids; i++) {
         status = check_ids(root, with_ids[i]);
     }
-    status = status ? status : koksma__plan_check_questions(root, trials, p);
+    status = status ? status : koksma__plan_check_questions(root, p);
     KOKSMA__JSON_FAIL_IF(!status && p->n_discrepancies + p->n_images == 0, root,
                          "the plan has neither 'discrepancies' nor 'images', so there is nothing to do");
-    status = status ? status : koksma__plan_check_tables(root, trials, p);
-    status = status ? status : check_figures(root, trials, p);
-    status = status ? status : koksma__plan_check_conclusions(root, trials, p);
+    status = status ? status : koksma__plan_check_tables(root, p);
+    status = status ? status : koksma__plan_check_conclusions(root, p);
     status = status ? status : set_metrics(root, p);
     return status ? status : koksma__plan_own(p);
 }

@@ -68,24 +68,18 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
                                 koksma__item_parser parser, const koksma__plan_trials *trials, void **items,
                                 size_t *n);
 
-/* Counts comparisons of a check, of which the plans of a study may take 2^28 together. Error: MALFORMED, at the node. */
-koksma_status koksma__plan_step(const koksma__json_node *node, const koksma__plan_trials *trials, uint64_t n);
-
 /* Reads an item of "questions"; checks that the blocks and scenes that questions name exist (plan_questions.c). */
 koksma_status koksma__plan_question(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
-koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                           const koksma__plan *plan);
+koksma_status koksma__plan_check_questions(const koksma__json_node *root, const koksma__plan *plan);
 
 /* Reads an item of "conclusions"; checks that the tables, blocks and patterns that conclusions name exist
    (plan_questions.c). */
 koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
-koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                             const koksma__plan *plan);
+koksma_status koksma__plan_check_conclusions(const koksma__json_node *root, const koksma__plan *plan);
 
 /* Reads an item of "tables"; checks that blocks of the plan make every row (plan_tables.c). */
 koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__plan_trials *trials, void *item);
-koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                        const koksma__plan *plan);
+koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan);
 
 /* Check that every pattern can make each number of points, of samples of an image block, or of samples of a
    reference, and that every measure accepts each number of points. In a block with `skip` the sizes that a pattern or

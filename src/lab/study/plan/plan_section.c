@@ -321,15 +321,3 @@ koksma_status koksma__plan_list(const koksma__json_node *node, const char *key, 
     }
     return status;
 }
-
-/* A comparison takes a few nanoseconds. */
-#define MOST_STEPS ((uint64_t)1 << 28)
-
-koksma_status koksma__plan_step(const koksma__json_node *node, const koksma__plan_trials *trials, uint64_t n)
-{
-    trials->totals->steps += n;
-    KOKSMA__JSON_FAIL_IF(trials->totals->steps > MOST_STEPS, node,
-                         "finding what tables and questions refer to takes more than 2^28 steps: use fewer rows, "
-                         "sizes, scenes or blocks");
-    return KOKSMA_OK;
-}

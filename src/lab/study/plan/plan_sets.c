@@ -25,10 +25,10 @@ enum { MOST_TRIED = 1 << 16 };
 enum { MOST_MEASURED = 1 << 21 };
 
 /* The trials of a plan have at most MOST_WORK coordinates together. Each trial counts as EACH more or, if it reads a file,
-   as FILE_READ or one for each COORDINATE bytes, whichever is more; a sample of an image counts as SAMPLE. From the first
+   as FILE_READ; a sample of an image counts as SAMPLE. From the first
    that is too many on, none is made: a size that is refused then shows when its job runs. The limit is a count, not a
    time, because the sizes that `skip` leaves out must be the same on every machine. */
-enum { MOST_WORK = 1 << 27, EACH = 1 << 10, FILE_READ = 1 << 17, COORDINATE = 16, SAMPLE = 16 };
+enum { MOST_WORK = 1 << 27, EACH = 1 << 10, FILE_READ = 1 << 17, SAMPLE = 16 };
 
 /* Each takes a byte with `skip`, and some steps. */
 enum { MOST_PAIRS = 1 << 25 };
@@ -38,12 +38,7 @@ static bool has_work(const koksma__plan_trials *trials, bool image, const char *
 {
     const koksma__row_texts row = {image, name, ""};
     const long long left = MOST_WORK - trials->totals->work;
-    long long each = EACH;
-    if (left && koksma__points_read_files(&row)) {
-        const long long length = (long long)(koksma__points_files_length(&row) / COORDINATE);
-        each = length > FILE_READ ? length : FILE_READ;
-    }
-    const long long cost = each + n * dim;
+    const long long cost = (koksma__points_read_files(&row) ? FILE_READ : EACH) + n * dim;
     trials->totals->work += cost < left ? cost : left;
     return cost <= left;
 }

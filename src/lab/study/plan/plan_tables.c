@@ -193,71 +193,54 @@ static bool makes_image(const koksma__image_block *i, const koksma__table *t, co
 }
 
 /* Finds the first image block that makes all rows of a table, so that all rows are compared with the same references
-   at one size. If there is none, *row is the first row that is missing from the block that makes the most rows
-   before it; otherwise the number of rows. */
-static koksma_status find_images(const koksma__json_node *table, const koksma__plan_trials *trials,
-                                 const koksma__plan *plan, koksma__table *t, size_t *row)
+   at one size. Returns the number of rows or, if there is no such block, the first row that is missing from the block that
+   makes the most rows before it. */
+static size_t find_images(const koksma__plan *plan, koksma__table *t)
 {
-    *row = 0;
-    for (size_t b = 0; b < plan->n_images && *row < t->n_rows; b++) {
-        const koksma__image_block *i = &plan->images[b];
+    size_t row = 0;
+    for (size_t b = 0; b < plan->n_images && row < t->n_rows; b++) {
         size_t r = 0;
-        while (r < t->n_rows && makes_image(i, t, t->rows[r].pattern)) {
+        while (r < t->n_rows && makes_image(&plan->images[b], t, t->rows[r].pattern)) {
             r++;
         }
-        KOKSMA__TRY(
-            koksma__plan_step(table, trials, (r + 1) * (i->variants.n + i->scenes.n + i->patterns.n + i->spp.n)));
         t->images = r == t->n_rows ? b : t->images;
-        *row = r > *row ? r : *row;
+        row = r > row ? r : row;
     }
-    return KOKSMA_OK;
+    return row;
 }
 
 /* Whether discrepancy blocks evaluate the measure for a row's pattern at every n of the table. */
-static koksma_status is_made(const koksma__json_node *table, const koksma__plan_trials *trials,
-                             const koksma__plan *plan, const koksma__table *t, const char *measure,
-                             const char *pattern, bool *made)
+static bool is_made(const koksma__plan *plan, const koksma__table *t, const char *measure, const char *pattern)
 {
-    *made = true;
-    for (size_t i = 0; i < t->n.n && *made; i++) {
-        *made = false;
-        for (size_t b = 0; b < plan->n_discrepancies && !*made; b++) {
-            const koksma__discrepancy_block *block = &plan->discrepancies[b];
-            *made = koksma__plan_block_makes(block, measure, pattern, t->n.at[i], t->dim);
-            KOKSMA__TRY(koksma__plan_step(table, trials, 1 + block->measures.n + block->patterns.n + block->n.n));
+    bool made = true;
+    for (size_t i = 0; i < t->n.n && made; i++) {
+        made = false;
+        for (size_t b = 0; b < plan->n_discrepancies && !made; b++) {
+            made = koksma__plan_block_makes(&plan->discrepancies[b], measure, pattern, t->n.at[i], t->dim);
         }
     }
-    return KOKSMA_OK;
+    return made;
 }
 
-/* *row: the first row that no blocks make, or the number of rows. */
-static koksma_status find_discrepancies(const koksma__json_node *table, const koksma__plan_trials *trials,
-                                        const koksma__plan *plan, const koksma__table *t, size_t *row)
+/* The first row that no blocks make, or the number of rows. */
+static size_t find_discrepancies(const koksma__plan *plan, const koksma__table *t)
 {
-    for (*row = 0; *row < t->n_rows; ++*row) {
-        bool made, also = true;
-        KOKSMA__TRY(is_made(table, trials, plan, t, t->measure, t->rows[*row].pattern, &made));
-        if (made && t->also) {
-            KOKSMA__TRY(is_made(table, trials, plan, t, t->also, t->rows[*row].pattern, &also));
-        }
-        if (!made || !also) {
-            break;
-        }
+    size_t row = 0;
+    while (row < t->n_rows && is_made(plan, t, t->measure, t->rows[row].pattern) &&
+           (!t->also || is_made(plan, t, t->also, t->rows[row].pattern))) {
+        row++;
     }
-    return KOKSMA_OK;
+    return row;
 }
 
-koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan_trials *trials,
-                                        const koksma__plan *plan)
+koksma_status koksma__plan_check_tables(const koksma__json_node *root, const koksma__plan *plan)
 {
     koksma__json_node tables;
     KOKSMA__TRY(plan->n_tables ? koksma__json_member(root, "tables", &tables) : KOKSMA_OK);
     for (size_t i = 0; i < plan->n_tables; i++) {
         koksma__table *t = &plan->tables[i];
         const koksma__json_node table = koksma__json_item(&tables, i);
-        size_t row;
-        KOKSMA__TRY(t->scene ? find_images(&table, trials, plan, t, &row)
-                             : find_discrepancies(&table, trials, plan, t, &row));
+        const size_t row = t->scene ? find_images(plan, t) : find_discrepancies(plan, t);
         KOKSMA__JSON_FAIL_IF(row < t->n_rows && row && t->scene, &table,
                              "no single block of the plan makes the row of %s together with the rows before it",
                              t->rows[row].pattern);
