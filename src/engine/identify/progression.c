@@ -300,11 +300,8 @@ static double radical(uint64_t i)
 
 static koksma_status look_radical(progression *p, bool gray)
 {
-    int m = 1;
+    const int m = koksma__levels_of(p->n);
     char detail[400] = "generating vector modulo ";
-    while ((uint64_t)1 << m < p->n) {
-        m++;
-    }
     const uint64_t half = (uint64_t)1 << (m - 1), at = gray ? koksma__from_gray(half) : half;
     if (at >= p->n || m < 3) {
         return KOKSMA_OK;

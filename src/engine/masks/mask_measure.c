@@ -98,37 +98,33 @@ static koksma_status measure_test(void *context, size_t test)
     return KOKSMA_OK;
 }
 
+typedef struct entry {
+    float value;
+    uint32_t pixel;
+} entry;
+
 static int ascending(const void *a, const void *b)
 {
-    const float x = *(const float *)a, y = *(const float *)b;
+    const float x = ((const entry *)a)->value, y = ((const entry *)b)->value;
     return x < y ? -1 : x > y;
-}
-
-/* Returns how many of the sorted numbers are below x or, with `equal`, not above it. */
-static size_t count_below(const float *sorted, size_t n, float x, bool equal)
-{
-    size_t first = 0, end = n;
-    while (first < end) {
-        const size_t middle = (first + end) / 2;
-        if (equal ? !(x < sorted[middle]) : sorted[middle] < x) {
-            first = middle + 1;
-        } else {
-            end = middle;
-        }
-    }
-    return first;
 }
 
 /* Makes the mean rank of each value, as a share of the pixels. */
 static koksma_status rank(const float *values, size_t n, float *ranks)
 {
-    float *sorted = malloc(n * sizeof *sorted);
+    entry *sorted = malloc(n * sizeof *sorted);
     KOKSMA__REQUIRE_MEMORY(sorted, n * sizeof *sorted);
-    memcpy(sorted, values, n * sizeof *sorted);
-    qsort(sorted, n, sizeof *sorted, ascending);
     for (size_t p = 0; p < n; p++) {
-        const size_t below = count_below(sorted, n, values[p], false), upto = count_below(sorted, n, values[p], true);
-        ranks[p] = (float)((double)(below + upto) / 2 / (double)n);
+        sorted[p] = (entry){values[p], (uint32_t)p};
+    }
+    qsort(sorted, n, sizeof *sorted, ascending);
+    for (size_t below = 0, upto; below < n; below = upto) {
+        for (upto = below + 1; upto < n && !(sorted[below].value < sorted[upto].value);) {
+            upto++;
+        }
+        for (size_t i = below; i < upto; i++) {
+            ranks[sorted[i].pixel] = (float)((double)(below + upto) / 2 / (double)n);
+        }
     }
     free(sorted);
     return KOKSMA_OK;

@@ -23,10 +23,7 @@ enum { BITS = 32, MOST_LEVELS = 31 };
 static koksma_status generate(uint64_t seed, const koksma_args *args, koksma_points *out)
 {
     (void)seed;
-    int m = 0;
-    while (m < MOST_LEVELS && (uint64_t)1 << m < out->n) {
-        m++;
-    }
+    const int levels = koksma__levels_of(out->n), m = levels < MOST_LEVELS ? levels : MOST_LEVELS;
     KOKSMA__FAIL_IF((uint64_t)1 << m != out->n, KOKSMA_N,
                     "cascaded-sobol: n = %zu is not a power of two up to 2^%d; n = %zu would do", out->n, MOST_LEVELS,
                     (size_t)1 << m);

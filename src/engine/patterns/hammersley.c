@@ -29,12 +29,9 @@ typedef struct net {
 
 static bool make_net(uint64_t n, double offset, net *s)
 {
-    int m = 0;
-    while (m < 32 && (uint64_t)1 << m < n) {
-        m++;
-    }
+    const int m = koksma__levels_of(n);
     const double start = ldexp(offset, 32 - m);
-    if ((uint64_t)1 << m != n || start != floor(start)) {
+    if (m > 32 || (uint64_t)1 << m != n || start != floor(start)) {
         return false;
     }
     for (int b = 0; b < 32; b++) {

@@ -40,9 +40,7 @@ static koksma_status error_of(koksma__lattice_search *search, int dim, uint64_t 
     koksma__lattice_start(search);
     *error = 0;
     for (int k = 0; k < dim; k++) {
-        if (search->n > 4096 && !koksma__keep_going(search->run, 0)) {
-            return koksma__fail_interrupted();
-        }
+        KOKSMA__TRY(search->n > 4096 ? koksma__ask(search->run) : KOKSMA_OK);
         *error += koksma__lattice_extend(search, z[k]);
     }
     return KOKSMA_OK;

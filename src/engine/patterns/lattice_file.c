@@ -89,8 +89,7 @@ static koksma_status read_head(koksma__number_lines *lines, int dim, vector *v)
                         "%s: line %zu: %llu points; a lattice has 1 to 2^32", lines->name, lines->number,
                         (unsigned long long)v->points);
     }
-    KOKSMA__FAIL_IF(dims < (uint64_t)dim, KOKSMA_DIM, "%s: it has %llu dimensions, not %d", lines->name,
-                    (unsigned long long)dims, dim);
+    KOKSMA__TRY(koksma__number_lines_dims(lines, dims, dim));
     v->base = base_of(v->points);
     return KOKSMA_OK;
 }
@@ -102,8 +101,7 @@ static koksma_status read_vector(koksma__number_lines *lines, int dim, vector *v
         uint64_t line[2] = {0};
         size_t count;
         KOKSMA__TRY(koksma__number_lines_next(lines, *lines->kind ? 1 : 2, line, &count));
-        KOKSMA__FAIL_IF(!count && k && !*lines->kind, KOKSMA_DIM, "%s: it has %d dimensions, not %d", lines->name, k,
-                        dim);
+        KOKSMA__TRY(!count && k && !*lines->kind ? koksma__number_lines_dims(lines, (uint64_t)k, dim) : KOKSMA_OK);
         KOKSMA__FAIL_IF(!count, KOKSMA_MALFORMED, "%s: it ends before coordinate %d of its vector", lines->name,
                         k + 1);
         KOKSMA__FAIL_IF(count == 2 && line[0] != (uint64_t)k + 1, KOKSMA_MALFORMED,

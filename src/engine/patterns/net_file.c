@@ -125,13 +125,6 @@ static koksma_status take(koksma__number_lines *lines, const char *what, uint64_
     return KOKSMA_OK;
 }
 
-static koksma_status check_dims(const koksma__number_lines *lines, uint64_t dims, int dim)
-{
-    KOKSMA__FAIL_IF(dims < (uint64_t)dim, KOKSMA_DIM, "%s: it has %llu dimensions, not %d", lines->name,
-                    (unsigned long long)dims, dim);
-    return KOKSMA_OK;
-}
-
 /* Sets the number of columns. `given` is this number or, if it is above MOST_COLUMNS, the number of points
    base^columns. */
 static koksma_status count_columns(const koksma__number_lines *lines, uint64_t base, uint64_t given, int *columns)
@@ -202,7 +195,7 @@ static koksma_status read_dnet(koksma__number_lines *lines, int dim, matrices *m
     uint64_t base, dims, factor, columns, rows;
     KOKSMA__TRY(take_base(lines, &base));
     KOKSMA__TRY(take(lines, "the number of dimensions", 1, UINT32_MAX, &dims));
-    KOKSMA__TRY(check_dims(lines, dims, dim));
+    KOKSMA__TRY(koksma__number_lines_dims(lines, dims, dim));
     KOKSMA__TRY(take_interlacing(lines, dims, &factor));
     KOKSMA__TRY(take(lines, "the number of columns", 1, UINT64_MAX, &columns));
     KOKSMA__TRY(count_columns(lines, base, columns, &m->columns));
@@ -264,7 +257,7 @@ static koksma_status read_plattice(koksma__number_lines *lines, int dim, matrice
                         lines->name, lines->number, (unsigned long long)base);
     }
     KOKSMA__TRY(take(lines, "the number of dimensions", 1, UINT32_MAX, &dims));
-    KOKSMA__TRY(check_dims(lines, dims, dim));
+    KOKSMA__TRY(koksma__number_lines_dims(lines, dims, dim));
     KOKSMA__TRY(take(lines, "the degree of the modulus", 1, MOST_COLUMNS - 1, &columns));
     KOKSMA__TRY(take(lines, "the modulus", 2, UINT64_MAX, &value));
     m->base = (uint32_t)base;
@@ -348,7 +341,8 @@ static koksma_status read_sobol(koksma__number_lines *lines, int dim, matrices *
         size_t count = 1;
         if (k) {
             KOKSMA__TRY(next_sobol_line(lines, k, numbers, &count));
-            KOKSMA__TRY(count ? sobol_columns(lines, k, numbers, count, v) : check_dims(lines, (uint64_t)k, dim));
+            KOKSMA__TRY(count ? sobol_columns(lines, k, numbers, count, v)
+                              : koksma__number_lines_dims(lines, (uint64_t)k, dim));
         }
         for (int c = 0; c < m->columns; c++) {
             for (int l = 0; l < m->digits; l++) {

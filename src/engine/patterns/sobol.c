@@ -155,10 +155,7 @@ static koksma_status generate_owen(const job *j, const koksma_args *args, koksma
         partners = malloc((size_t)out->dim * 32 * sizeof *partners);
         KOKSMA__REQUIRE_MEMORY(partners, (size_t)out->dim * 32 * sizeof *partners);
     }
-    int levels = args->first || j->part ? 32 : 1;
-    while ((uint64_t)1 << levels < out->n) {
-        levels++;
-    }
+    const int levels = args->first || j->part ? 32 : out->n > 2 ? koksma__levels_of(out->n) : 1;
     for (int k = 0; k < out->dim; k++) {
         koksma__partners(directions_of(j, k), levels, partners + 32 * k);
     }

@@ -354,9 +354,7 @@ koksma_status koksma__darts_throw(koksma__disks *s, double mean, size_t n, const
     s->n_waiting = 0;
     for (uint32_t i = 0; i < s->tiles * s->tiles && !status; i++) {
         status = throw_at_tile(s, i, &q, mean, n < SIZE_MAX);
-        if (!status && i % 4096 == 4095 && !koksma__keep_going(run, n == SIZE_MAX ? 0.5 : (double)s->n / (double)n)) {
-            status = koksma__fail_interrupted();
-        }
+        status = status ? status : koksma__look(run, i, n == SIZE_MAX ? 0.5 : (double)s->n / (double)n);
     }
     status = status ? status : sort_waiting(s);
     for (size_t i = 0; i < s->n_waiting && !status; i++) {

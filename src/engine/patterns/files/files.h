@@ -38,6 +38,9 @@ koksma_status koksma__number_lines_next(koksma__number_lines *lines, size_t most
 koksma_status koksma__number_lines_take(koksma__number_lines *lines, const char *what, size_t needed,
                                         uint64_t *numbers);
 
+/* Fails with DIM if the file has fewer dimensions than are wanted. */
+koksma_status koksma__number_lines_dims(const koksma__number_lines *lines, uint64_t dims, int wanted);
+
 /* ---- File names ------------------------------------------------------------------------------------------ */
 
 /* Paths with the placeholders {n} and {seed}, such as my_{n}_{seed}.npy: they name a family of sets of points, one file

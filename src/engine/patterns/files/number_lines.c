@@ -139,3 +139,10 @@ koksma_status koksma__number_lines_take(koksma__number_lines *lines, const char 
                                 lines->number, count, needed, what)
                  : koksma__fail(KOKSMA_MALFORMED, "%s: it ends before %s", lines->name, what);
 }
+
+koksma_status koksma__number_lines_dims(const koksma__number_lines *lines, uint64_t dims, int wanted)
+{
+    KOKSMA__FAIL_IF(dims < (uint64_t)wanted, KOKSMA_DIM, "%s: it has %llu dimensions, not %d", lines->name,
+                    (unsigned long long)dims, wanted);
+    return KOKSMA_OK;
+}

@@ -193,9 +193,7 @@ static koksma_status choose(const koksma__lattice_search *s, double window, cand
         if (!(s->values[z < s->n - z ? z : s->n - z] <= lowest + window)) {
             continue;
         }
-        if (!koksma__keep_going(s->run, 0)) {
-            return koksma__fail_interrupted();
-        }
+        KOKSMA__TRY(koksma__ask(s->run));
         const double value = sum(s, z);
         if (*best == 0 || value < least) {
             least = value;

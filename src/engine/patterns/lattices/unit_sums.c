@@ -259,7 +259,8 @@ koksma_status koksma__unit_sums_open(size_t n, const koksma_run *run, koksma__un
     koksma_status status = add_blocks(s, 1, 0);
     status = status ? status : make_room(s);
     for (size_t i = 0; !status && i < s->n_blocks; i++) {
-        status = koksma__keep_going(run, 0) ? make_block(s, &s->blocks[i]) : koksma__fail_interrupted();
+        status = koksma__ask(run);
+        status = status ? status : make_block(s, &s->blocks[i]);
     }
     return status;
 }
@@ -380,9 +381,7 @@ koksma_status koksma__unit_sums_find(koksma__unit_sums *s, const koksma_run *run
 {
     *error = 0;
     for (size_t i = 0; i < s->n_blocks; i++) {
-        if (!koksma__keep_going(run, 0)) {
-            return koksma__fail_interrupted();
-        }
+        KOKSMA__TRY(koksma__ask(run));
         *error += find_block(s, &s->blocks[i], product, values);
     }
     add_up(s, values);

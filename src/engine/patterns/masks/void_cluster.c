@@ -257,9 +257,7 @@ static koksma_status begin(mask *m, uint64_t seed, const koksma_run *run, size_t
         if (hole == cluster) {
             break;
         }
-        if (step % 256 == 255 && !koksma__keep_going(run, 0)) {
-            return koksma__fail_interrupted();
-        }
+        KOKSMA__TRY(step % 256 == 255 ? koksma__ask(run) : KOKSMA_OK);
     }
     return KOKSMA_OK;
 }

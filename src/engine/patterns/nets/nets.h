@@ -56,6 +56,12 @@ koksma_status koksma__add_late_digits(const koksma_run *run, const uint64_t *sum
    points 2^l + i and i ^ partner have the same first l digits. */
 void koksma__late_partners(const uint64_t columns[KOKSMA__DIGITS], uint64_t partners[KOKSMA__LATE_DIGITS]);
 
+/* Returns the least m for which 2^m >= n. */
+static inline int koksma__levels_of(uint64_t n)
+{
+    return n > 1 ? 64 - __builtin_clzll(n - 1) : 0;
+}
+
 /* ---- Columns --------------------------------------------------------------------------------------------- */
 
 /* Fills the points of patterns that compute one coordinate (a column) of a block of points at a time. The functions

@@ -33,10 +33,7 @@ static koksma_status fill_net(uint64_t seed, const koksma_run *run, int m, uint3
 koksma_status koksma__owen_equidistant(uint64_t seed, const koksma_run *run, koksma_points *out)
 {
     const size_t n = out->n;
-    int m = 0;
-    while ((size_t)1 << m < n) {
-        m++;
-    }
+    const int m = koksma__levels_of(n);
     void *memory = malloc(n * sizeof(double));
     KOKSMA__REQUIRE_MEMORY(memory, n * sizeof(double));
     koksma_status status;
