@@ -166,13 +166,10 @@ const cli_command cli_command_atlas = {
         "submit: measures a set exactly and writes an entry: the points, the value, the author and a digest.\n"
         "check: measures entries again, in their order. verdict: accepted, or why not. altered: the points, "
         "measure or author are not those of the digest. false: the points have another value than the entry "
-        "claims. duplicate: the set is that of the pattern record or of an entry before it, up to the order of "
-        "the points, shifts on the torus, and in up to four dimensions reflections and permutations of the axes. "
-        "worse: not better than the record or an entry before it by more than 1e-11; where no record is known, than "
-        "the "
-        "best listed pattern, up to 512 coordinates. invalid: the file is missing or no entry. Exit codes, the worst "
-        "of "
-        "all entries: 0 accepted; 1 refused; 2 for a wrong command line; 3 invalid.\n",
+        "claims. worse: not better than the record or an entry before it by more than 1e-9, as no copy is; where no "
+        "record is known, than the best listed pattern, up to 512 coordinates. invalid: the file is missing or no "
+        "entry. Exit codes, the worst of all entries: 0 accepted; 1 refused; 2 for a wrong command line; 3 "
+        "invalid.\n",
     .examples = "koksma atlas build -o atlas --quick\n"
                 "koksma atlas submit points.txt --author 'A. Name' -o entry.json\n"
                 "koksma atlas check entry.json\n",

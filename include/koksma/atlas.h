@@ -60,10 +60,8 @@ KOKSMA_API koksma_status koksma_entry_text(const koksma_points *points, const ko
                 better than the listed patterns
      altered    the digest is not that of the points, measure and author
      false      the measure of the points is not the claimed value, to 13 digits
-     duplicate  the points are those of the record or of an entry before it, up to order, shifts on the torus and, up to
-                four dimensions, permutations and reflections of the axes, to 1e-9
      worse      not better than the record, the listed patterns where there is none, or an entry before it, by more than
-                1e-11
+                1e-9, as no copy of one is
      invalid    the file is missing or no entry, or its points cannot be measured */
 typedef struct koksma_entry_result {
     const char *verdict;  /* one of these words; a constant */

@@ -4,11 +4,6 @@
  * digits, which read back to the same doubles. The digest is the SHA-256 of the measure's spec, the author, the dimension
  * and the bits of the coordinates; the value is left out, so that a wrong claim is found by measuring, not by the digest.
  *
- * Two sets are the same if a map of the cube takes one to the other: a permutation and reflections of the axes (2^d d!
- * maps, up to four dimensions), then a shift on the torus. A shift is found by trying, for the first point of one set,
- * every point of the other: n shifts, each of which the first point without a partner ends. Only sets of the same measure
- * and number of points whose values agree to 1e-9 are compared, so that a map which changes the value is never the reason.
- *
  * Where the table has no record, an entry must beat the sets of the listed patterns, those from which a search would start:
  * a table of records that a pattern beats would be none. Up to 512 coordinates that takes seconds at most.
  */
@@ -28,8 +23,9 @@
 #include "optimise/optimise.h"
 #include "json/json.h"
 
-enum { MAX_MAPPED = 4, NUMBER = 32, MOST_LISTED = 512 };
-static const double near = 1e-9, clear = 1e-11, digits = 1e-13;
+enum { NUMBER = 32, MOST_LISTED = 512 };
+static const double clear = 1e-9,
+                    digits = 1e-13; /* clear: a copy is no better, nor one whose points are moved by rounding */
 
 typedef struct entry {
     koksma_points points;
@@ -164,135 +160,6 @@ static void entry_fini(entry *e)
     koksma__json_close(e->document);
 }
 
-/* ---- Sets that are the same ------------------------------------------------------------------------------------ */
-
-static double apart(double x, double y)
-{
-    const double d = fabs(x - y);
-    return fabs(d - nearbyint(d)); /* on the torus */
-}
-
-/* Whether the set, sorted by the first coordinate, has a point near x on the torus. */
-static bool has_point(const koksma_points *sorted, const double *x)
-{
-    const size_t dim = (size_t)sorted->dim;
-    for (int turn = -1; turn <= 1; turn++) { /* copies of the first coordinate beyond both ends */
-        size_t low = 0, high = sorted->n;
-        while (low < high) {
-            const size_t middle = (low + high) / 2;
-            if (sorted->xs[middle * dim] < x[0] + turn - near) {
-                low = middle + 1;
-            } else {
-                high = middle;
-            }
-        }
-        for (; low < sorted->n && sorted->xs[low * dim] <= x[0] + turn + near; low++) {
-            size_t k = 1;
-            while (k < dim && apart(sorted->xs[low * dim + k], x[k]) <= near) {
-                k++;
-            }
-            if (k == dim) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-/* Writes point i of `points` under a map: coordinate k is coordinate axis[k], reflected if bit k of `mirror` is set. */
-static void map_point(const koksma_points *points, size_t i, const int *axis, unsigned mirror, double *out)
-{
-    for (int k = 0; k < points->dim; k++) {
-        const double x = points->xs[i * (size_t)points->dim + (size_t)(axis ? axis[k] : k)];
-        out[k] = mirror >> k & 1 ? 1 - x : x;
-    }
-}
-
-static bool same_under(const koksma_points *a, const koksma_points *sorted, const int *axis, unsigned mirror,
-                       double *x)
-{
-    const size_t dim = (size_t)a->dim;
-    double *shift = x + dim;
-    for (size_t i = 0; i < sorted->n; i++) {
-        map_point(a, 0, axis, mirror, x);
-        for (size_t k = 0; k < dim; k++) {
-            shift[k] = sorted->xs[i * dim + k] - x[k];
-        }
-        size_t found = 0;
-        for (; found < a->n; found++) {
-            map_point(a, found, axis, mirror, x);
-            for (size_t k = 0; k < dim; k++) {
-                x[k] += shift[k];
-                x[k] -= floor(x[k]);
-            }
-            if (!has_point(sorted, x)) {
-                break;
-            }
-        }
-        if (found == a->n) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static void swap(int *values, int i, int j)
-{
-    const int kept = values[i];
-    values[i] = values[j];
-    values[j] = kept;
-}
-
-/* Makes the next permutation in the order of a dictionary. Returns false after the last one. */
-static bool next_permutation(int *axis, int n)
-{
-    int i = n - 2, j = n - 1;
-    while (i >= 0 && axis[i] > axis[i + 1]) {
-        i--;
-    }
-    while (i >= 0 && axis[j] < axis[i]) {
-        j--;
-    }
-    if (i < 0) {
-        return false;
-    }
-    swap(axis, i, j);
-    for (int k = i + 1, l = n - 1; k < l; k++, l--) {
-        swap(axis, k, l);
-    }
-    return true;
-}
-
-static int by_first(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static koksma_status are_same(const koksma_points *a, const koksma_points *b, bool *same)
-{
-    int axis[MAX_MAPPED] = {0, 1, 2, 3};
-    const size_t dim = (size_t)a->dim;
-    const bool mapped = a->dim <= MAX_MAPPED;
-    koksma_points sorted;
-    double *x = malloc(2 * dim * sizeof *x);
-    KOKSMA__REQUIRE_MEMORY(x, 2 * dim * sizeof *x);
-    const koksma_status status = koksma_points_init(&sorted, b->n, b->dim);
-    *same = false;
-    if (!status) {
-        memcpy(sorted.xs, b->xs, b->n * dim * sizeof *x);
-        qsort(sorted.xs, b->n, dim * sizeof *x, by_first);
-        do {
-            for (unsigned mirror = 0; !*same && mirror < (mapped ? 1u << a->dim : 1u); mirror++) {
-                *same = same_under(a, &sorted, mapped ? axis : NULL, mirror, x);
-            }
-        } while (!*same && mapped && next_permutation(axis, a->dim));
-        koksma_points_fini(&sorted);
-    }
-    free(x);
-    return status;
-}
-
 /* ---- The check ------------------------------------------------------------------------------------------------- */
 
 static bool is_rival(const entry *e, const koksma_entry_result *mine, const char *measure, size_t n, int dim)
@@ -300,19 +167,10 @@ static bool is_rival(const entry *e, const koksma_entry_result *mine, const char
     return e->points.n == n && e->points.dim == dim && !strcmp(mine->measure, measure);
 }
 
-/* Compares an entry with a set of the same measure and size: duplicate, or the record that it must beat. */
-static koksma_status compare(const entry *e, koksma_entry_result *r, const koksma_points *points, double value,
-                             const char *name)
+/* Compares an entry with the value of a set of the same measure and size, which it must beat. */
+static void compare(const entry *e, koksma_entry_result *r, double value, const char *name)
 {
     const double sign = e->measure.measure->larger_is_better ? 1 : -1;
-    bool same = false;
-    if (fabs(value - r->value) <= near * fabs(value)) {
-        KOKSMA__TRY(are_same(&e->points, points, &same));
-    }
-    if (same && strcmp(r->verdict, "duplicate") != 0) {
-        r->verdict = "duplicate";
-        snprintf(r->reason, sizeof r->reason, "the points are those of %.200s", name);
-    }
     if (isnan(r->record) || sign * value > sign * r->record) {
         r->record = value;
     }
@@ -322,38 +180,28 @@ static koksma_status compare(const entry *e, koksma_entry_result *r, const koksm
                          "%.17g is not better by more than %g than %.17g, the value of %.150s", r->value, clear,
                          value, name);
     }
-    return KOKSMA_OK;
 }
 
-static koksma_status compare_record(const entry *e, koksma_entry_result *r, const koksma_run *run, bool *found)
+/* Returns whether the table has a record of an entry's measure, number of points and dimension. */
+static bool compare_record(const entry *e, koksma_entry_result *r)
 {
-    *found = false;
     const koksma_record *record;
+    bool found = false;
     for (size_t i = 0; (record = koksma_record_at(i)); i++) {
-        char text[KOKSMA_MAX_SPEC + 16];
-        koksma_spec spec;
-        koksma_points points;
-        if (!is_rival(e, r, record->measure, record->n, record->dim)) {
-            continue;
+        if (is_rival(e, r, record->measure, record->n, record->dim)) {
+            char name[KOKSMA_MAX_SPEC + 64];
+            snprintf(name, sizeof name, "record:measure=%s@%zu@%d", record->measure, record->n, record->dim);
+            compare(e, r, record->value, name);
+            found = true;
         }
-        *found = true;
-        snprintf(text, sizeof text, "record:measure=%s", record->measure);
-        KOKSMA__TRY(koksma_pattern_spec(text, &spec));
-        KOKSMA__TRY(koksma_points_init(&points, record->n, record->dim));
-        snprintf(text, sizeof text, "record:measure=%s@%zu@%d", record->measure, record->n, record->dim);
-        koksma_status status = koksma_generate(&spec, 0, run, &points);
-        status = status ? status : compare(e, r, &points, record->value, text);
-        koksma_points_fini(&points);
-        KOKSMA__TRY(status);
     }
-    return KOKSMA_OK;
+    return found;
 }
 
-/* The best set of the listed patterns so far. */
+/* The best value of the listed patterns so far. */
 typedef struct listed {
     const koksma_spec *measure;
     const koksma_run *run;
-    koksma_points best;
     double value;
 } listed;
 
@@ -365,7 +213,6 @@ static koksma_status consider(void *context, const koksma_points *points)
     const koksma_status status = measure_exactly(l->measure, points, l->run, &value);
     if (!status && !(l->measure->measure->larger_is_better ? value <= l->value : value >= l->value)) {
         l->value = value;
-        memcpy(l->best.xs, points->xs, points->n * (size_t)points->dim * sizeof *points->xs);
     }
     return status == KOKSMA_MEMORY || status == KOKSMA_INTERRUPTED ? status : KOKSMA_OK;
 }
@@ -379,13 +226,13 @@ static koksma_status compare_patterns(const entry *e, koksma_entry_result *r, bo
     char name[KOKSMA_MAX_SPEC + 96];
     koksma_status status = KOKSMA_OK;
     if (n * dim <= MOST_LISTED) {
-        status = koksma_points_init(&l.best, n, e->points.dim);
-        status = status ? status : koksma__search_starts(&e->measure, &options, false, run, consider, &l);
+        status = koksma__search_starts(&e->measure, &options, false, run, consider, &l);
         status = status ? status : koksma__search_starts(&e->measure, &options, true, run, consider, &l);
         snprintf(name, sizeof name, "the best listed pattern ('koksma optimise %s -n %zu -d %zu --steps 0')",
                  r->measure, n, dim);
-        status = status || isnan(l.value) ? status : compare(e, r, &l.best, l.value, name);
-        koksma_points_fini(&l.best);
+        if (!status && !isnan(l.value)) {
+            compare(e, r, l.value, name);
+        }
     }
     if (first && !status && !strcmp(r->verdict, "accepted")) {
         koksma__snprintf(r->reason, sizeof r->reason,
@@ -420,13 +267,13 @@ static koksma_status check(const entry *entries, const char *const *paths, koksm
                          r->value);
         return KOKSMA_OK;
     }
-    bool has_record, first = true;
-    KOKSMA__TRY(compare_record(e, r, run, &has_record));
+    const bool has_record = compare_record(e, r);
+    bool first = true;
     for (size_t k = 0; k < i; k++) {
         const bool sound = !isnan(results[k].value) && strcmp(results[k].verdict, "false") != 0;
         if (sound && is_rival(e, r, results[k].measure, results[k].n, results[k].dim)) {
             first = first && strcmp(results[k].verdict, "accepted") != 0;
-            KOKSMA__TRY(compare(e, r, &entries[k].points, results[k].value, paths[k]));
+            compare(e, r, results[k].value, paths[k]);
         }
     }
     return has_record ? KOKSMA_OK : compare_patterns(e, r, first, run);
