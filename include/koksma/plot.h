@@ -67,7 +67,7 @@ KOKSMA_API koksma_status koksma_plot_format_of(const char *path, koksma_plot_for
 KOKSMA_API koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
                                              koksma_plot_format format, unsigned char **bytes, size_t *size);
 
-/* A square picture: points, or a power spectrum. */
+/* A square picture: points, or a power spectrum, with a scale. */
 typedef struct koksma_panel {
     const koksma_points *points; /* NULL: draw the spectrum */
     koksma_scatter_options scatter;
@@ -78,12 +78,6 @@ typedef struct koksma_panel {
     const char *title;               /* line above the panel; may be NULL */
     size_t swatch;                   /* 1 + the number of a colour to show beside the title; 0: no colour */
 } koksma_panel;
-
-/* Draws n panels in a row; spectra get a scale.
-     size  side of a panel; 0: 320, or more for points of more than 3 dimensions
-   Errors: those of koksma_plot_scatter; also ARGUMENT if n is 0. */
-KOKSMA_API koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double size,
-                                            koksma_plot_format format, unsigned char **bytes, size_t *n_bytes);
 
 /* A curve of a chart: n points joined by straight lines. A point between two gaps is drawn as a mark. */
 typedef struct koksma_curve {
@@ -105,14 +99,8 @@ typedef struct koksma_chart {
     size_t n_curves;
     bool has_level; /* true: draw a horizontal guide at `level`, such as the value of random points */
     double level;
-    double size;       /* width in points or pixels; 0: 480. Unused in a figure, which sets the width */
     const char *title; /* line above the chart; may be NULL */
 } koksma_chart;
-
-/* Draws a chart. Errors: ARGUMENT (no point can be drawn, a size or format out of range), and those of every plot
-   function. */
-KOKSMA_API koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format,
-                                           unsigned char **bytes, size_t *n_bytes);
 
 /* Finds colour numbers for n patterns of one picture. Each family of patterns has its colour: the first pattern of a
    family has it in all pictures, others of the family get colours that no other pattern of the picture has. From the
@@ -143,8 +131,8 @@ typedef struct koksma_figure {
 } koksma_figure;
 
 /* Draws a figure. run: asked after some thousand points of a panel whether to go on; may be NULL. Errors: those of
-   koksma_plot_scatter and koksma_plot_chart; also ARGUMENT for a figure without cells and for a height in which the
-   texts leave no space for the cells, and INTERRUPTED. */
+   koksma_plot_scatter; also ARGUMENT for a figure without cells, a chart without a point that can be drawn, and a height in
+   which the texts leave no space for the cells; and INTERRUPTED. */
 KOKSMA_API koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_plot_format format,
                                             const koksma_run *run, unsigned char **bytes, size_t *n_bytes);
 

@@ -265,8 +265,7 @@ class Curve(Structure):
 
 class Chart(Structure):
     _fields_ = [("x_label", c_char_p), ("y_label", c_char_p), ("log_x", c_bool), ("log_y", c_bool), ("curves", POINTER(Curve)),
-                ("n_curves", c_size_t), ("has_level", c_bool), ("level", c_double), ("size", c_double),
-                ("title", c_char_p)]
+                ("n_curves", c_size_t), ("has_level", c_bool), ("level", c_double), ("title", c_char_p)]
 
 
 class Cell(Structure):

@@ -47,7 +47,8 @@ TEST_CASE(points_of_the_unit_square)
     unsigned char *bytes;
     size_t size;
     const koksma_panel nothing = {0};
-    assert_int_equal(koksma_plot_panels(&nothing, 1, 0, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+    const koksma_figure empty = {.cells = &(koksma_cell){.panel = &nothing}, .n_cells = 1};
+    assert_int_equal(koksma_plot_figure(&empty, KOKSMA_PLOT_SVG, NULL, &bytes, &size), KOKSMA_ARGUMENT);
     assert_int_equal(koksma_plot_strata(NULL, 0, -1, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
 }
 
@@ -81,19 +82,24 @@ TEST_CASE(splits_are_marked)
     }
 }
 
+static koksma_status plot_chart(const koksma_chart *chart, double width, unsigned char **bytes, size_t *size)
+{
+    const koksma_figure figure = {.cells = &(koksma_cell){.chart = chart}, .n_cells = 1, .width = width};
+    return koksma_plot_figure(&figure, KOKSMA_PLOT_SVG, NULL, bytes, size);
+}
+
 TEST_CASE(charts_without_labels)
 {
     unsigned char *bytes;
     size_t size;
     koksma_chart chart = {0};
-    assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+    assert_int_equal(plot_chart(&chart, 0, &bytes, &size), KOKSMA_ARGUMENT);
     assert_null(strstr(koksma_error_text(), "null"));
     const koksma_curve curve = {.n = 2, .xs = xs, .ys = xs};
     chart = (koksma_chart){.curves = &curve, .n_curves = 1};
-    assert_ok(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size));
+    assert_ok(plot_chart(&chart, 0, &bytes, &size));
     free(bytes);
-    chart.size = NAN;
-    assert_int_equal(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size), KOKSMA_ARGUMENT);
+    assert_int_equal(plot_chart(&chart, NAN, &bytes, &size), KOKSMA_ARGUMENT);
 }
 
 /* An SVG file as a text, to be freed. */
@@ -101,7 +107,7 @@ static char *chart_text(const koksma_chart *chart)
 {
     unsigned char *bytes;
     size_t size;
-    assert_ok(koksma_plot_chart(chart, KOKSMA_PLOT_SVG, &bytes, &size));
+    assert_ok(plot_chart(chart, 0, &bytes, &size));
     char *text = calloc(size + 1, 1);
     assert_non_null(text);
     memcpy(text, bytes, size);

@@ -147,9 +147,9 @@ static void make_plots(FILE *out)
     const koksma_panel panels[] = {{.points = &points}, {.spectrum = &spectrum, .white = 2.5}};
     assert_ok(koksma_plot_scatter(&points, &options, KOKSMA_PLOT_SVG, &bytes, &size));
     take_svg(out, bytes, size);
-    assert_ok(koksma_plot_chart(&chart, KOKSMA_PLOT_SVG, &bytes, &size));
-    take_svg(out, bytes, size);
-    assert_ok(koksma_plot_panels(panels, 2, 0, KOKSMA_PLOT_SVG, &bytes, &size));
+    const koksma_cell cells[] = {{.panel = &panels[0]}, {.panel = &panels[1]}, {.chart = &chart}};
+    const koksma_figure figure = {.cells = cells, .n_cells = 3};
+    assert_ok(koksma_plot_figure(&figure, KOKSMA_PLOT_SVG, NULL, &bytes, &size));
     take_svg(out, bytes, size);
     koksma_spectrum_fini(&spectrum);
     koksma_points_fini(&points);

@@ -43,7 +43,7 @@ koksma_status koksma__canvas_open(koksma_plot_format format, double width, doubl
     if (!status) {
         (*out)->draw = draw;
         (*out)->dashes = dashes;
-        koksma__canvas_box(*out, (koksma__box){0, 0, width, height}, (koksma__style){.colour = paper});
+        (*out)->draw->box(*out, (koksma__box){0, 0, width, height}, (koksma__style){.colour = paper});
     }
     return status;
 }
@@ -55,30 +55,9 @@ koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes
 
 /* ---- Shapes ------------------------------------------------------------------------------------------- */
 
-void koksma__canvas_path(koksma__canvas *canvas, const double *xys, size_t n, koksma__style style)
-{
-    canvas->draw->path(canvas, xys, n, style);
-}
-
 void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, koksma__style style)
 {
     canvas->draw->path(canvas, (double[]){x0, y0, x1, y1}, 2, style);
-}
-
-void koksma__canvas_box(koksma__canvas *canvas, koksma__box box, koksma__style style)
-{
-    canvas->draw->box(canvas, box, style);
-}
-
-void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, koksma__style style)
-{
-    canvas->draw->circle(canvas, x, y, radius, style);
-}
-
-koksma_status koksma__canvas_pixels(koksma__canvas *canvas, koksma__box box, int columns, int rows,
-                                    const unsigned char *rgb)
-{
-    return canvas->draw->pixels(canvas, box, columns, rows, rgb);
 }
 
 /* The signed distance of a position from the line through side 0 to 3 of a box, positive inside. */
@@ -119,7 +98,7 @@ static void polygon_inside(koksma__canvas *canvas, const double *xys, size_t n, 
         n = kept;
     }
     if (n > 2) {
-        koksma__canvas_path(canvas, corners[0], n, style);
+        canvas->draw->path(canvas, corners[0], n, style);
     }
 }
 
@@ -131,7 +110,7 @@ void koksma__canvas_path_inside(koksma__canvas *canvas, const double *xys, size_
         cut = cut || depth(xys + 2 * (i / 4), inside, (int)(i % 4)) < 0;
     }
     if (!cut) {
-        koksma__canvas_path(canvas, xys, n, style);
+        canvas->draw->path(canvas, xys, n, style);
     } else if (!(style.thickness > 0)) {
         polygon_inside(canvas, xys, n, inside, style);
     }

@@ -259,13 +259,13 @@ static void draw_mark(koksma__canvas *canvas, double x, double y, const koksma_c
     double at[2 * MOST_CORNERS];
     style.thickness = 0;
     if (shape == 0) {
-        koksma__canvas_circle(canvas, x, y, 2.6, style);
+        canvas->draw->circle(canvas, x, y, 2.6, style);
         return;
     }
     for (size_t i = 0; i < 2 * shapes[shape - 1].n; i++) {
         at[i] = (i % 2 ? y : x) + 2.4 * shapes[shape - 1].at[i];
     }
-    koksma__canvas_path(canvas, at, shapes[shape - 1].n, style);
+    canvas->draw->path(canvas, at, shapes[shape - 1].n, style);
 }
 
 /* Draws the standard errors of a run of points that begins at `first`: as bars if the curve has marks, otherwise as a
@@ -290,7 +290,7 @@ static void draw_errors(const axes *a, const koksma_curve *k, size_t first, size
     if (any && !k->marks && n > 1) {
         style.thickness = 0;
         style.colour.a = 0.2;
-        koksma__canvas_path(a->canvas, band, 2 * n, style);
+        a->canvas->draw->path(a->canvas, band, 2 * n, style);
     }
 }
 
@@ -386,7 +386,7 @@ koksma_status koksma__chart_draw(koksma__canvas *canvas, const koksma__theme *th
     a.x.to = fmax(left + inner - 4, a.x.from + 1);
     a.box = (koksma__box){a.x.from, y, a.x.to - a.x.from, height};
     draw_ticks(&a, c);
-    koksma__canvas_box(canvas, a.box, (koksma__style){1, theme->frame, KOKSMA__DASH_WHOLE});
+    canvas->draw->box(canvas, a.box, (koksma__style){1, theme->frame, KOKSMA__DASH_WHOLE});
     if (c->has_level) {
         const double at = place(&a.y, c->level);
         koksma__canvas_line(canvas, a.x.from, at, a.x.to, at, (koksma__style){1, theme->guide, KOKSMA__DASH_GUIDE});

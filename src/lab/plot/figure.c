@@ -13,7 +13,7 @@
 #include "core/files.h"
 #include "core/status.h"
 
-enum { TITLE = 15, TOP = 6, CHART = 480, MIN_PANEL = 128, MIN_CHART = 300, LEAST_CHART = 112, WIDE = 960 };
+enum { TITLE = 15, TOP = 6, CHART = 480, MIN_PANEL = 128, MIN_CHART = 300, WIDE = 960 };
 
 static const double aspect = 0.5; /* height of a chart's axes over the width of the chart */
 
@@ -202,30 +202,6 @@ koksma_status koksma_plot_figure(const koksma_figure *figure, koksma_plot_format
     return status;
 }
 
-koksma_status koksma_plot_panels(const koksma_panel *panels, size_t n, double size, koksma_plot_format format,
-                                 unsigned char **bytes, size_t *n_bytes)
-{
-    KOKSMA__REQUIRE(panels, bytes, n_bytes);
-    double side = 0;
-    koksma_status status = koksma__array_check("panels", panels, n, sizeof *panels);
-    status = status ? status : koksma__figure_size(format, size, n ? koksma__panel_side(panels) : 320, &side);
-    if (!status && (n == 0 || side * (double)n > KOKSMA_PLOT_MAX_SIZE)) {
-        status = koksma__fail(KOKSMA_ARGUMENT, "%zu panels of side %g: a picture is 1 to %d wide", n, side,
-                              KOKSMA_PLOT_MAX_SIZE);
-    }
-    koksma_cell *cells = status ? NULL : calloc(n, sizeof *cells);
-    if (!status && !cells) {
-        status = koksma__fail_memory(n * sizeof *cells);
-    }
-    for (size_t i = 0; i < n && !status; i++) {
-        cells[i].panel = &panels[i];
-    }
-    const koksma_figure figure = {.cells = cells, .n_cells = n, .width = side * (double)n};
-    status = status ? status : koksma_plot_figure(&figure, format, NULL, bytes, n_bytes);
-    free(cells);
-    return status;
-}
-
 koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scatter_options *options,
                                   koksma_plot_format format, unsigned char **bytes, size_t *size)
 {
@@ -233,18 +209,9 @@ koksma_status koksma_plot_scatter(const koksma_points *points, const koksma_scat
     static const koksma_scatter_options plain = {0};
     options = options ? options : &plain;
     const koksma_panel panel = {.points = points, .scatter = *options, .caption = options->caption};
-    return koksma_plot_panels(&panel, 1, options->size, format, bytes, size);
-}
-
-koksma_status koksma_plot_chart(const koksma_chart *chart, koksma_plot_format format, unsigned char **bytes,
-                                size_t *n_bytes)
-{
-    KOKSMA__REQUIRE(chart, bytes, n_bytes);
-    double width = 0;
-    const koksma_status status = koksma__figure_size(format, chart->size, CHART, &width);
-    const koksma_cell cell = {.chart = chart};
-    const koksma_figure figure = {.cells = &cell, .n_cells = 1, .width = fmax(status ? 0 : width, LEAST_CHART)};
-    return status ? status : koksma_plot_figure(&figure, format, NULL, bytes, n_bytes);
+    const koksma_cell cell = {.panel = &panel};
+    const koksma_figure figure = {.cells = &cell, .n_cells = 1, .width = options->size};
+    return koksma_plot_figure(&figure, format, NULL, bytes, size);
 }
 
 koksma_status koksma_plot_format_of(const char *path, koksma_plot_format *format)

@@ -51,6 +51,8 @@ typedef struct koksma__canvas_functions {
     void (*path)(koksma__canvas *canvas, const double *xys, size_t n, koksma__style style);
     void (*box)(koksma__canvas *canvas, koksma__box box, koksma__style style);
     void (*circle)(koksma__canvas *canvas, double x, double y, double radius, koksma__style style);
+    /* Fills a box with columns x rows squares, whose colours are bytes of red, green and blue, row by row from the upper
+       left corner. Errors: MEMORY, UNSUPPORTED. */
     koksma_status (*pixels)(koksma__canvas *canvas, koksma__box box, int columns, int rows, const unsigned char *rgb);
     void (*text)(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                  koksma__colour colour);
@@ -68,21 +70,13 @@ extern const koksma__canvas_functions koksma__svg_functions;
 koksma_status koksma__canvas_open(koksma_plot_format format, double width, double height, const char *title,
                                   koksma__colour paper, koksma__canvas **out);
 
-void koksma__canvas_path(koksma__canvas *canvas, const double *xys, size_t n, koksma__style style);
 void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, koksma__style style);
-void koksma__canvas_box(koksma__canvas *canvas, koksma__box box, koksma__style style);
-void koksma__canvas_circle(koksma__canvas *canvas, double x, double y, double radius, koksma__style style);
 
 /* Draws the part of a path that is inside a box. The path is open, or a filled polygon of at most KOKSMA__MAX_CORNERS
    corners. */
 enum { KOKSMA__MAX_CORNERS = 192 };
 void koksma__canvas_path_inside(koksma__canvas *canvas, const double *xys, size_t n, koksma__box inside,
                                 koksma__style style);
-
-/* Fills a box with columns x rows squares, whose colours are bytes of red, green and blue, row by row from the upper
-   left corner. Errors: MEMORY, UNSUPPORTED. */
-koksma_status koksma__canvas_pixels(koksma__canvas *canvas, koksma__box box, int columns, int rows,
-                                    const unsigned char *rgb);
 
 /* Writes a text. x is the left end of the text if anchor is 0, its middle if 0.5, its right end if 1. */
 void koksma__canvas_text(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,

@@ -89,7 +89,7 @@ static void draw_guide(const plot *p, const koksma_warp *warp, int fixed, double
         in[1 - fixed] = warp && i == pieces ? 1 - 1e-9 : (double)i / pieces;
         position(p, warp, in, xys + 2 * i);
     }
-    koksma__canvas_path(p->canvas, xys, (size_t)pieces + 1, line_of(p->theme->cell, 0.8));
+    p->canvas->draw->path(p->canvas, xys, (size_t)pieces + 1, line_of(p->theme->cell, 0.8));
 }
 
 /* Draws the borders between cells. With a warp it also draws the border of the square; in a disk this includes the
@@ -109,12 +109,12 @@ static void draw_frame(const plot *p, const koksma_warp *warp)
     const double right = p->left + p->side, bottom = p->top + p->side;
     const koksma__style style = line_of(p->theme->frame, 1);
     if (!warp) {
-        koksma__canvas_box(p->canvas, square(p), style);
+        p->canvas->draw->box(p->canvas, square(p), style);
     } else if (warp->domain == KOKSMA_DOMAIN_TRIANGLE) {
-        koksma__canvas_path(p->canvas, (double[]){p->left, p->top, p->left, bottom, right, bottom, p->left, p->top},
-                            4, style);
+        p->canvas->draw->path(p->canvas, (double[]){p->left, p->top, p->left, bottom, right, bottom, p->left, p->top},
+                              4, style);
     } else {
-        koksma__canvas_circle(p->canvas, p->left + p->side / 2, p->top + p->side / 2, p->side / 2, style);
+        p->canvas->draw->circle(p->canvas, p->left + p->side / 2, p->top + p->side / 2, p->side / 2, style);
     }
 }
 
@@ -152,8 +152,8 @@ static void draw_witness(const plot *p, const koksma_witness *w)
         const int h = p->axes[0], v = p->axes[1];
         const koksma__box box = {at_x(p, w->lo[h]), at_y(p, w->hi[v]), (w->hi[h] - w->lo[h]) * p->side,
                                  (w->hi[v] - w->lo[v]) * p->side};
-        koksma__canvas_box(p->canvas, box, line_of(p->theme->wash, 0));
-        koksma__canvas_box(p->canvas, box, line_of(p->theme->mark, 1.2));
+        p->canvas->draw->box(p->canvas, box, line_of(p->theme->wash, 0));
+        p->canvas->draw->box(p->canvas, box, line_of(p->theme->mark, 1.2));
     } else if (w->kind == KOKSMA_WITNESS_DISK) {
         draw_disk(p, w);
     } else if (w->kind == KOKSMA_WITNESS_HALF_PLANE && w->dim == 2) {
@@ -188,7 +188,7 @@ static koksma_status draw_local(const plot *p, const koksma_points *points, doub
                   rgb + 3 * (row * LOCAL + column));
         }
     }
-    status = status ? status : koksma__canvas_pixels(p->canvas, square(p), LOCAL, LOCAL, rgb);
+    status = status ? status : p->canvas->draw->pixels(p->canvas, square(p), LOCAL, LOCAL, rgb);
     free(values);
     free(rgb);
     return status;
@@ -206,7 +206,7 @@ static koksma_status draw_points(const plot *p, const koksma_points *points, con
         const double *x = points->xs + i * (size_t)points->dim, in[2] = {x[p->axes[0]], x[p->axes[1]]};
         double at[2];
         position(p, options->warp, in, at);
-        koksma__canvas_circle(p->canvas, at[0], at[1], radius, line_of(p->theme->ink, 0));
+        p->canvas->draw->circle(p->canvas, at[0], at[1], radius, line_of(p->theme->ink, 0));
         KOKSMA__TRY(koksma__look(p->run, i, 0));
     }
     return KOKSMA_OK;
@@ -257,9 +257,9 @@ static koksma_status draw_spectrum(const plot *p, const koksma_spectrum *s, doub
                    (unsigned char)(255 * fmin(power / white, 1) + 0.5), 3);
         }
     }
-    const koksma_status status = koksma__canvas_pixels(p->canvas, square(p), side, side, rgb);
+    const koksma_status status = p->canvas->draw->pixels(p->canvas, square(p), side, side, rgb);
     free(rgb);
-    koksma__canvas_box(p->canvas, square(p), line_of(p->theme->frame, 1));
+    p->canvas->draw->box(p->canvas, square(p), line_of(p->theme->frame, 1));
     return status;
 }
 
@@ -316,8 +316,8 @@ koksma_status koksma__panel_draw(koksma__canvas *canvas, const koksma__theme *th
                              theme->ink);
         if (panel->swatch) {
             const double half = fmin(koksma__text_width(panel->title, TITLE), inner - 2 * swatch) / 2;
-            koksma__canvas_box(canvas, (koksma__box){middle - half - swatch / 2, y - 8, 8, 8},
-                               koksma__curve_style(theme, panel->swatch - 1, 0));
+            canvas->draw->box(canvas, (koksma__box){middle - half - swatch / 2, y - 8, 8, 8},
+                              koksma__curve_style(theme, panel->swatch - 1, 0));
         }
     }
     if (!panel->points) {

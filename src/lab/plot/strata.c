@@ -27,7 +27,7 @@ static void add_box(const square *q, double x, double y, double width, double he
                     koksma__colour colour)
 {
     const koksma__box box = {q->x + x * q->side, q->y + y * q->side, width * q->side, height * q->side};
-    koksma__canvas_box(q->canvas, box, (koksma__style){.thickness = thickness, .colour = colour});
+    q->canvas->draw->box(q->canvas, box, (koksma__style){.thickness = thickness, .colour = colour});
 }
 
 /* Draws boxes in greys from black for value 0 to white for 1. If black marks follow, the greys run from MARKED_GREY
@@ -65,9 +65,9 @@ static void add_needed(const square *q, const koksma_strata_panel *panel)
         const koksma_split *s = &panel->splits[i];
         const double width = s->width < s->height ? s->width : s->height, radius = 0.5 * width * q->side;
         if (!s->needless) {
-            koksma__canvas_circle(q->canvas, q->x + (s->x + s->width / 2) * q->side,
-                                  q->y + (s->y + s->height / 2) * q->side, radius > 3 ? radius : 3,
-                                  (koksma__style){.thickness = s->level ? 1 : 2, .colour = ring});
+            q->canvas->draw->circle(q->canvas, q->x + (s->x + s->width / 2) * q->side,
+                                    q->y + (s->y + s->height / 2) * q->side, radius > 3 ? radius : 3,
+                                    (koksma__style){.thickness = s->level ? 1 : 2, .colour = ring});
         }
     }
 }
@@ -79,8 +79,8 @@ static void add_panel(const square *q, const koksma_strata_panel *panel)
     for (size_t i = 0; i < panel->n; i++) {
         const koksma_stratum *s = &panel->strata[i];
         add_box(q, s->x, s->y, s->width, s->height, 0.6, line);
-        koksma__canvas_circle(q->canvas, q->x + s->at[0] * q->side, q->y + s->at[1] * q->side, s->level ? 1.5 : 2.2,
-                              (koksma__style){.colour = dot});
+        q->canvas->draw->circle(q->canvas, q->x + s->at[0] * q->side, q->y + s->at[1] * q->side, s->level ? 1.5 : 2.2,
+                                (koksma__style){.colour = dot});
     }
     add_needed(q, panel);
     if (panel->caption) {

@@ -7,6 +7,7 @@
 #include "plot/plot.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,8 +45,8 @@ static void put(svg *s, const char *text)
     put_bytes(s, text, strlen(text));
 }
 
-/* Writes the text `before`, the value rounded to a hundredth without zeros at the end, and the text `after`. */
-static void put_number(svg *s, const char *before, double value, const char *after)
+/* Writes a value rounded to a hundredth, without zeros at the end. */
+static void put_number(svg *s, double value)
 {
     char text[48];
     koksma__snprintf(text, sizeof text, "%.2f", value);
@@ -54,9 +55,23 @@ static void put_number(svg *s, const char *before, double value, const char *aft
         *--end = '\0';
     }
     end[-1] = end[-1] == '.' ? '\0' : end[-1];
-    put(s, before);
     put(s, strcmp(text, "-0") ? text : "0");
-    put(s, after);
+}
+
+/* Writes a text with the next of the values, which are doubles, in place of each '#'. */
+static void put_values(svg *s, const char *text, ...)
+{
+    va_list values;
+    va_start(values, text);
+    for (const char *at = text; *at; at += *at == '#') {
+        const size_t plain = strcspn(at, "#");
+        put_bytes(s, at, plain);
+        at += plain;
+        if (*at) {
+            put_number(s, va_arg(values, double));
+        }
+    }
+    va_end(values);
 }
 
 static void put_escaped(svg *s, const char *text)
@@ -109,11 +124,10 @@ static koksma_status open_svg(koksma_plot_format format, double width, double he
     (void)format;
     svg *s = calloc(1, sizeof *s);
     KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
-    put(s, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
-    put_number(s, " width=\"", width, "\"");
-    put_number(s, " height=\"", height, "\"");
-    put_number(s, " viewBox=\"0 0 ", width, " ");
-    put_number(s, "", height, "\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>");
+    put_values(s,
+               "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"#\" "
+               "height=\"#\" viewBox=\"0 0 # #\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\">\n<title>",
+               width, height, width, height);
     put_escaped(s, title);
     put(s, "</title>\n");
     *out = &s->base;
@@ -126,8 +140,7 @@ static void path(koksma__canvas *canvas, const double *xys, size_t n, koksma__st
     begin_shapes(s, style);
     put(s, style.thickness > 0 ? "<polyline points=\"" : "<polygon points=\"");
     for (size_t i = 0; i < n; i++) {
-        put_number(s, i ? " " : "", xys[2 * i], ",");
-        put_number(s, "", xys[2 * i + 1], "");
+        put_values(s, i ? " #,#" : "#,#", xys[2 * i], xys[2 * i + 1]);
     }
     put(s, "\"/>\n");
 }
@@ -136,19 +149,14 @@ static void box(koksma__canvas *canvas, koksma__box b, koksma__style style)
 {
     svg *s = (svg *)canvas;
     begin_shapes(s, style);
-    put_number(s, "<rect x=\"", b.x, "\"");
-    put_number(s, " y=\"", b.y, "\"");
-    put_number(s, " width=\"", b.width, "\"");
-    put_number(s, " height=\"", b.height, "\"/>\n");
+    put_values(s, "<rect x=\"#\" y=\"#\" width=\"#\" height=\"#\"/>\n", b.x, b.y, b.width, b.height);
 }
 
 static void circle(koksma__canvas *canvas, double x, double y, double radius, koksma__style style)
 {
     svg *s = (svg *)canvas;
     begin_shapes(s, style);
-    put_number(s, "<circle cx=\"", x, "\"");
-    put_number(s, " cy=\"", y, "\"");
-    put_number(s, " r=\"", radius, "\"/>\n");
+    put_values(s, "<circle cx=\"#\" cy=\"#\" r=\"#\"/>\n", x, y, radius);
 }
 
 static void put_base64(svg *s, const unsigned char *bytes, size_t size)
@@ -186,11 +194,10 @@ static koksma_status pixels(koksma__canvas *canvas, koksma__box b, int columns, 
     koksma_image_fini(&image);
     if (!status) {
         begin_group(s, "");
-        put_number(s, "<image x=\"", b.x, "\"");
-        put_number(s, " y=\"", b.y, "\"");
-        put_number(s, " width=\"", b.width, "\"");
-        put_number(s, " height=\"", b.height, "\"");
-        put(s, " preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" href=\"data:image/png;base64,");
+        put_values(s,
+                   "<image x=\"#\" y=\"#\" width=\"#\" height=\"#\" preserveAspectRatio=\"none\" "
+                   "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,",
+                   b.x, b.y, b.width, b.height);
         put_base64(s, png, size);
         put(s, "\"/>\n");
     }
@@ -208,8 +215,7 @@ static void put_text(koksma__canvas *canvas, double x, double y, double height, 
     koksma__snprintf(style + n, sizeof style - (size_t)n, " font-size=\"%g\"%s", height,
                      anchors[(int)(2 * anchor + 0.5)]);
     begin_group(s, style);
-    put_number(s, "<text x=\"", x, "\"");
-    put_number(s, " y=\"", y, "\">");
+    put_values(s, "<text x=\"#\" y=\"#\">", x, y);
     put_escaped(s, text);
     put(s, "</text>\n");
 }
