@@ -250,7 +250,7 @@ def exports():
     before = bytes_of("e")
     for path in image, "e/references/new.csv", "./e/../e/references/new.csv", "image.exr", "e/into/new.csv":
         told = study("export", "e", "--format", "csv", "-o", path)
-        check(told.returncode == 2 and f"{path}: the folder has the study's reference images" in told.stderr, f"an export among the references: {told}")
+        check(told.returncode == 2 and f"{path}: the study keeps its results" in told.stderr, f"an export among the references: {told}")
         check(bytes_of("e") == before, f"an export among the references as {path}: they are changed")
     told = subprocess.run([KOKSMA, "study", "export", "..", "-o", "-"], cwd="e/references", capture_output=True, text=True, timeout=1800)
     check(told.returncode == 0 and told.stdout, f"an export to standard output from there: {told}")

@@ -22,9 +22,7 @@
 #include "study/report/rho.h"
 #include "study/run/references.h"
 
-/* The most patterns of a case, because the time of the bootstrap grows with the square of their number, and the most
-   scatter plots. */
-enum { MOST_PATTERNS = 256, MOST_PLOTS = 6 };
+enum { MOST_PLOTS = 6 };
 
 /* A measure of points of `dim` dimensions; the same measure in two and in three dimensions counts as two measures. */
 typedef struct measured {
@@ -44,10 +42,9 @@ typedef struct one_case {
 /* Of each pattern with results of both: the mean x of the measure, and the mean y of the image error with its interval, and
    the standard errors of both. */
 typedef struct pairs {
-    size_t n, patterns_in_all; /* patterns_in_all: also those without results or beyond MOST_PATTERNS */
-    double x[MOST_PATTERNS], y[MOST_PATTERNS], low[MOST_PATTERNS], high[MOST_PATTERNS];
-    double x_error[MOST_PATTERNS], y_error[MOST_PATTERNS];
-    const char *patterns[MOST_PATTERNS];
+    size_t n;
+    double *x, *y, *low, *high, *x_error, *y_error;
+    const char **patterns;
 } pairs;
 
 /* ---- Cases ------------------------------------------------------------------------------------------------- */
@@ -156,14 +153,12 @@ static one_case *list_cases(koksma__report *r, const koksma__topic *topic, size_
     return list;
 }
 
-/* Adds a pattern's means. A pattern that lacks results of points or of images, or comes after MOST_PATTERNS others, is
-   counted but not added. */
+/* Adds a pattern's means, if it has results of both points and images. */
 static void add_pair(koksma__report *r, const koksma__topic *topic, const one_case *at, const char *pattern,
                      const koksma__image_block *most, pairs *out)
 {
     const koksma__discrepancy_block *d = measured_in(topic, at, pattern);
-    out->patterns_in_all++;
-    if (!d || out->n == MOST_PATTERNS) {
+    if (!d) {
         return;
     }
     const koksma__subject points = koksma__subject_of_points(d, at->of->measure, ""),
@@ -182,23 +177,33 @@ static void add_pair(koksma__report *r, const koksma__topic *topic, const one_ca
 }
 
 /* Reads the means of a case for all patterns that have results of both the measure and the image error. */
-static void read_pairs(koksma__report *r, const koksma__topic *topic, const one_case *at, pairs *out)
+static pairs read_pairs(koksma__report *r, const koksma__topic *topic, const one_case *at)
 {
-    out->n = out->patterns_in_all = 0;
+    size_t most = 0;
+    for (size_t b = 0; b < topic->n_images; b++) {
+        most += topic->images[b]->patterns.n;
+    }
+    double *means = koksma__report_memory(r, 6 * most, sizeof *means);
+    pairs out = {.patterns = koksma__report_memory(r, most, sizeof *out.patterns)};
+    double **lists[] = {&out.x, &out.y, &out.low, &out.high, &out.x_error, &out.y_error};
+    for (size_t i = 0; i < 6; i++) {
+        *lists[i] = means + i * most;
+    }
     for (size_t b = 0; b < topic->n_images; b++) {
         const koksma__texts *patterns = &topic->images[b]->patterns;
         for (size_t p = 0; p < patterns->n && renders_it(r->study, topic->images[b], at, NULL); p++) {
-            const koksma__image_block *most = topic->images[b];
+            const koksma__image_block *block = topic->images[b];
             if (!koksma__report_goes_on(r) || is_before(r, topic, at, patterns->at[p], b)) {
                 continue;
             }
             for (size_t k = b; k < topic->n_images; k++) {
                 const koksma__image_block *i = topic->images[k];
-                most = i->trials > most->trials && renders_it(r->study, i, at, patterns->at[p]) ? i : most;
+                block = i->trials > block->trials && renders_it(r->study, i, at, patterns->at[p]) ? i : block;
             }
-            add_pair(r, topic, at, patterns->at[p], most, out);
+            add_pair(r, topic, at, patterns->at[p], block, &out);
         }
     }
+    return out;
 }
 
 /* ---- Correlations ------------------------------------------------------------------------------------------ */
@@ -223,15 +228,13 @@ static koksma_status correlate(const koksma_run *run, const one_case *p, const p
     return KOKSMA_OK;
 }
 
-/* Adds the row of a case to the table of all cases, and its correlation to the means. Returns the number of its
-   patterns. */
-static size_t add_case(koksma__report *r, koksma__document *d, const koksma__topic *topic, const one_case *p,
-                       koksma__rho_means *means)
+/* Adds the row of a case to the table of all cases, and its correlation to the means. */
+static void add_case(koksma__report *r, koksma__document *d, const koksma__topic *topic, const one_case *p,
+                     koksma__rho_means *means)
 {
-    pairs found;
+    const pairs found = read_pairs(r, topic, p);
     double draws[KOKSMA__RHO_SAMPLES];
     koksma__estimate rho;
-    read_pairs(r, topic, p, &found);
     if (!r->status && found.n >= 4 && koksma__report_keep(r, correlate(r->run, p, &found, draws, &rho)) &&
         !isnan(rho.value)) {
         rho = koksma__rho_shown(&rho, found.n);
@@ -239,7 +242,6 @@ static size_t add_case(koksma__report *r, koksma__document *d, const koksma__top
                         rho);
         koksma__rho_add(r, means, p->of->label, p->scene, found.n, &rho, draws);
     }
-    return found.patterns_in_all;
 }
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
@@ -253,11 +255,11 @@ static void add_measures(koksma__document *d, const char *id, const koksma__rho_
     koksma__doc_table(d, "correlation-%.40s", id);
     koksma__doc_columns(d, "t measure;i3 mean Spearman;n2 p of 0 (Holm);n3 lowest without a scene;n3 highest without "
                            "a scene;i2 less the first;n2 p of that (Holm);n7 cases;n7 cases that exclude 0");
-    for (size_t i = 0; i < r->n; i++) {
-        const koksma__rho_sums *m = &s->of[r->at[i].measure];
-        const koksma__estimate range = j->n > 1 ? koksma__rho_range(j, r->at[i].measure) : none;
-        koksma__doc_row(d, "tinnninzz", m->measure, r->at[i].mean, r->at[i].p, range.low, range.high,
-                        i ? r->at[i].less : none, i ? r->p[i] : (double)NAN, m->all, m->sure);
+    for (size_t m = 0; m < r->n; m++) { /* which are in the order of their means over all cases */
+        const koksma__rho_standing *of = &r->of[m];
+        const koksma__estimate range = j->n > 1 ? koksma__rho_range(j, m) : none;
+        koksma__doc_row(d, "tinnninzz", s->of[m].measure, of->mean, of->p, range.low, range.high, m ? of->less : none,
+                        m ? r->p[m] : (double)NAN, s->of[m].all, s->of[m].sure);
     }
 }
 
@@ -269,16 +271,17 @@ static void add_part(koksma__report *report, koksma__document *d, const koksma__
     const koksma__rho_ranking r = koksma__rho_rank(report, s, scenes);
     char worse[512] = "";
     for (size_t i = 1; i < r.n; i++) {
-        if (koksma__rho_is_better(&r, r.at[0].measure, r.at[i].measure)) {
-            koksma__text_join(worse, sizeof worse, ", ", s->of[r.at[i].measure].measure);
+        if (koksma__rho_is_better(&r, r.order[0], r.order[i])) {
+            koksma__text_join(worse, sizeof worse, ", ", s->of[r.order[i]].measure);
         }
     }
     if (r.n) {
-        koksma__doc_row(d, "tztt", name, r.at[0].cases, s->of[r.at[0].measure].measure, worse[0] ? worse : "none");
+        koksma__doc_row(d, "tztt", name, r.of[r.order[0]].cases, s->of[r.order[0]].measure,
+                        worse[0] ? worse : "none");
     }
     for (size_t m = 0; r.n && m < s->n; m++) {
         const koksma__estimate none = {NAN, NAN, NAN};
-        koksma__doc_cells(d, "i", r.place[m] < r.n ? r.at[r.place[m]].mean : none);
+        koksma__doc_cells(d, "i", r.of[m].cases ? r.of[m].mean : none);
     }
 }
 
@@ -317,9 +320,8 @@ static void add_parts(koksma__report *r, koksma__document *d, const koksma__topi
 /* Adds a scatter plot of a case. */
 static void add_scatter(koksma__report *r, koksma__document *d, const koksma__topic *topic, const one_case *p)
 {
-    pairs found;
+    const pairs found = read_pairs(r, topic, p);
     char title[256], name[KOKSMA__VARIANT_TEXT + 64];
-    read_pairs(r, topic, p, &found);
     koksma__case_name(p->scene, p->variant, name, sizeof name);
     koksma__snprintf(title, sizeof title, "%.120s, %lld sample%s: error against %.60s, Spearman %.2f", name, p->spp,
                      koksma__plural((double)p->spp), p->of->label, koksma__spearman(found.x, found.y, found.n));
@@ -334,13 +336,12 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
 {
     koksma__document list = {0};
     koksma__rho_means means = {0};
-    size_t n = 0, most = 0;
+    size_t n = 0;
     const one_case *cases = list_cases(r, topic, &n);
     koksma__doc_table(&list, "correlations-%.40s", topic->id);
     koksma__doc_columns(&list, "t scene;t options;n7 samples;t measure;n7 patterns;i3 Spearman##%s", topic->metric);
     for (size_t i = 0; !r->status && i < n; i++) {
-        const size_t patterns = add_case(r, &list, topic, &cases[i], &means);
-        most = patterns > most ? patterns : most;
+        add_case(r, &list, topic, &cases[i], &means);
     }
     koksma__report_keep(r, list.json.status);
     koksma__rho_order(r, &means);
@@ -350,12 +351,6 @@ void koksma__answer_correlation(koksma__report *r, koksma__document *d, const ko
         return;
     }
     koksma__rho_say(d, &means, &jackknife);
-    if (most > MOST_PATTERNS) {
-        koksma__doc_paragraph(d,
-                              "A case has up to %zu patterns; correlations use only the first %d of them. `koksma "
-                              "study export` has the results of all.",
-                              most, MOST_PATTERNS);
-    }
     add_measures(d, topic->id, &means, &jackknife);
     add_parts(r, d, topic, &means, true);
     add_parts(r, d, topic, &means, false);

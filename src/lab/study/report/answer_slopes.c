@@ -288,7 +288,8 @@ static void add_subject(koksma__report *r, koksma__document *d, const char *id, 
     koksma__doc_chart(&chart, &(koksma__chart){title, of->images ? "samples a pixel" : "points",
                                                of->images ? of->metric : of->measure, true, true,
                                                s.sense == LARGER ? 1 : -1});
-    koksma__doc_sorted_table(&rows, "slope", false, "slopes-%.32s-%zu", id, number);
+    koksma__doc_table(&rows, "slopes-%.32s-%zu", id, number);
+    koksma__doc_sort(&rows, "slope", false);
     koksma__doc_columns(&rows, "t pattern;i3 slope##%s;t power law?", of->metric);
     add_rows(r, &rows, &chart, &s);
     say_slopes(r, d, &s);

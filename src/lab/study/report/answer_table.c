@@ -218,7 +218,8 @@ static void add_table(koksma__report *r, koksma__document *d, const char *id, si
     if (of->images) {
         say_reference(r, d, of);
     }
-    koksma__doc_sorted_table(d, s.last, of->larger, "means-%.32s-%zu", id, number);
+    koksma__doc_table(d, "means-%.32s-%zu", id, number);
+    koksma__doc_sort(d, s.last, of->larger);
     if (add_means(r, d, &s) && koksma_study_left_out_at(r->study, 0)) {
         koksma__doc_paragraph(d, "A cell without a number has no results: the section *Left out* gives the reasons.");
     }

@@ -366,48 +366,41 @@ void koksma__doc_item(koksma__document *d, const char *format, ...)
     SAY(d, format);
 }
 
-void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t n)
+void koksma__doc_commands(koksma__document *d)
 {
     begin_block(d, "commands", NULL);
     koksma__json_begin_array(&d->json, "lines");
-    for (size_t i = 0; i < n; i++) {
-        koksma__json_write_text(&d->json, NULL, lines[i]);
-    }
+}
+
+void koksma__doc_command(koksma__document *d, const char *format, ...)
+{
+    char line[2 * KOKSMA__DOC_COMMAND];
+    va_list arguments;
+    va_start(arguments, format);
+    koksma__vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    koksma__json_write_text(&d->json, NULL, line);
 }
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
-static void begin_table(koksma__document *d, const char *column, bool descending, const char *format,
-                        va_list arguments)
-{
-    char name[256];
-    koksma__vsnprintf(name, sizeof name, format, arguments);
-    begin_block(d, "table", NULL);
-    koksma__json_write_text(&d->json, "name", name);
-    if (column) {
-        koksma__json_begin_object(&d->json, "sort");
-        koksma__json_write_text(&d->json, "column", column);
-        put_flag(d, "descending", descending);
-        koksma__json_end(&d->json);
-    }
-    koksma__json_begin_array(&d->json, "columns");
-    d->in_columns = true;
-}
-
 void koksma__doc_table(koksma__document *d, const char *format, ...)
 {
+    char name[256];
     va_list arguments;
     va_start(arguments, format);
-    begin_table(d, NULL, false, format, arguments);
+    koksma__vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
+    begin_block(d, "table", NULL);
+    koksma__json_write_text(&d->json, "name", name);
 }
 
-void koksma__doc_sorted_table(koksma__document *d, const char *column, bool descending, const char *format, ...)
+void koksma__doc_sort(koksma__document *d, const char *column, bool descending)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    begin_table(d, column, descending, format, arguments);
-    va_end(arguments);
+    koksma__json_begin_object(&d->json, "sort");
+    koksma__json_write_text(&d->json, "column", column);
+    put_flag(d, "descending", descending);
+    koksma__json_end(&d->json);
 }
 
 /* Writes one of the heads of a column, which ends at '#' or ';', and returns the rest. */
@@ -440,12 +433,15 @@ void koksma__doc_columns(koksma__document *d, const char *columns, ...)
     static const char *const types[] = {"text", "number", "interval", "spread", "verdict"};
     va_list arguments;
     va_start(arguments, columns);
+    if (!d->in_columns) {
+        koksma__json_begin_array(&d->json, "columns");
+        d->in_columns = true;
+    }
     for (const char *at = columns; *at; at += *at == ';') {
         const char *name = strchr(at, ' ') + 1, *type = strchr(letters, *at);
         const int digits = at[1] >= '1' && at[1] <= '9' ? at[1] - '0' : 0;
-        const char *const fixed = memchr(at, 'f', (size_t)(name - at));
-        const char *const hidden = memchr(at, 'h', (size_t)(name - at)),
-                          *merged = memchr(at, 'm', (size_t)(name - at));
+        const size_t n = (size_t)(name - at);
+        const bool fixed = memchr(at, 'f', n), hidden = memchr(at, 'h', n), merged = memchr(at, 'm', n);
         koksma__json_begin_object(&d->json, NULL);
         at = put_head(d, "name", name, &arguments);
         koksma__json_write_text(&d->json, "type", types[type - letters]);
@@ -685,29 +681,6 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
 
 /* ---- The page ---------------------------------------------------------------------------------------------- */
 
-/* The build embeds page/page.html with its script, cut in two where the data are inserted. The first half has the
-   placeholders {{title}} and {{numbers}}, in this order, for texts that depend on the kind of the page. */
-static const char *const titles[] = {
-    [KOKSMA__PAGE_STUDY] = "koksma: report of a study", [KOKSMA__PAGE_DATASHEET] = "koksma: datasheet of a sampler"};
-
-static const char beside[] = "All of its numbers are in <a href=\"report.json\">report.json</a> beside it.";
-static const char inside[] = "All of its numbers are in this file, in the element with the id <code>data</code>, as "
-                             "JSON; <code>koksma datasheet SAMPLER -o sheet.json</code> writes them.";
-
-static void put_page(FILE *f, koksma__page_kind kind, const char *json)
-{
-    static const char title[] = "{{title}}", numbers[] = "{{numbers}}";
-    const char *head = koksma__page_head, *at = strstr(head, title), *after = at + sizeof title - 1,
-               *then = strstr(after, numbers);
-    fwrite(head, 1, (size_t)(at - head), f);
-    fputs(titles[kind], f);
-    fwrite(after, 1, (size_t)(then - after), f);
-    fputs(kind == KOKSMA__PAGE_DATASHEET ? inside : beside, f);
-    fputs(then + sizeof numbers - 1, f);
-    fputs(json, f);
-    fputs(koksma__page_foot, f);
-}
-
 void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path)
 {
     const char *name = strrchr(path, '/');
@@ -717,9 +690,7 @@ void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path)
         return;
     }
     if (!*folder) {
-        memcpy(folder, path, length);
-        folder[length] = '\0';
-        return;
+        snprintf(folder, KOKSMA__FOLDER, "%.*s", (int)length, path);
     }
     while (same < length && folder[same] == path[same]) {
         same++;
@@ -733,24 +704,22 @@ void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path)
 void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLDER])
 {
     koksma__json_writer w = {.in_html = d->json.in_html};
-    if (strlen(folder) > 1 && d->json.text) {
-        koksma__json_write_text(&w, NULL, folder);
-        const size_t length = w.status ? 0 : w.size - 2; /* without its quotes */
-        if (length) {
-            w.text[length + 1] = '\0';
+    if (strlen(folder) < 2 || !d->json.text) {
+        return;
+    }
+    koksma__json_write_text(&w, NULL, folder); /* as the texts have it, without its quotes */
+    const size_t length = w.status ? 0 : w.size - 2;
+    char *to = d->json.text;
+    for (const char *from = to; length && *from;) {
+        if (!strncmp(from, w.text + 1, length)) {
+            from += length;
+        } else {
+            *to++ = *from++;
         }
-        char *to = d->json.text;
-        for (const char *at = to, *next; length; at = next + length) {
-            next = strstr(at, w.text + 1);
-            const size_t kept = next ? (size_t)(next - at) : strlen(at);
-            memmove(to, at, kept);
-            to += kept;
-            if (!next) {
-                d->json.size = (size_t)(to - d->json.text);
-                *to = '\0';
-                break;
-            }
-        }
+    }
+    if (length) {
+        *to = '\0';
+        d->json.size = (size_t)(to - d->json.text);
     }
     koksma__json_writer_fini(&w);
 }
@@ -762,29 +731,30 @@ void koksma__page_style(FILE *f)
     fwrite(style, 1, (size_t)(strstr(style, end) - style) + sizeof end - 1, f);
 }
 
-char *koksma__page_text(koksma__page_kind kind, const char *json)
+char *koksma__page_text(const char *json)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *f = open_memstream(&text, &size);
-    if (f) {
-        put_page(f, kind, json);
-    }
-    if (!f || fclose(f)) {
-        free(text);
-        text = NULL;
+    const size_t size = strlen(json) + sizeof koksma__page_head + sizeof koksma__page_foot;
+    char *text = malloc(size);
+    if (text) {
+        snprintf(text, size, "%s%s%s", koksma__page_head, json, koksma__page_foot);
     }
     return text;
 }
 
-koksma_status koksma__page_write(const char *folder, koksma__page_kind kind, const char *json)
+/* Writes three texts as one file. */
+static koksma_status put_file(const char *folder, const char *name, const char *head, const char *json,
+                              const char *foot)
 {
     koksma__atomic_file file;
-    KOKSMA__TRY(koksma__atomic_open(folder, "report.json", &file));
+    KOKSMA__TRY(koksma__atomic_open(folder, name, &file));
+    fputs(head, file.stream);
     fputs(json, file.stream);
-    putc('\n', file.stream);
-    KOKSMA__TRY(koksma__atomic_close(&file, true));
-    KOKSMA__TRY(koksma__atomic_open(folder, "report.html", &file));
-    put_page(file.stream, kind, json);
+    fputs(foot, file.stream);
     return koksma__atomic_close(&file, true);
+}
+
+koksma_status koksma__page_write(const char *folder, const char *json)
+{
+    KOKSMA__TRY(put_file(folder, "report.json", "", json, "\n"));
+    return put_file(folder, "report.html", koksma__page_head, json, koksma__page_foot);
 }

@@ -83,8 +83,11 @@ void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const cha
 void koksma__doc_list(koksma__document *d, const char *id, bool numbered);
 void koksma__doc_item(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
-/* Command lines that reproduce the numbers above them, for the reader to copy. */
-void koksma__doc_commands(koksma__document *d, const char *const *lines, size_t n);
+/* Begins a list of command lines, for the reader to copy, that reproduce the numbers above them; adds one. A command is
+   cut at twice the size of a list of names in it. */
+enum { KOKSMA__DOC_COMMAND = 8192 };
+void koksma__doc_commands(koksma__document *d);
+void koksma__doc_command(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* ---- Tables ------------------------------------------------------------------------------------------------ */
 
@@ -101,12 +104,10 @@ typedef struct koksma__cell_data {
 
 koksma__cell_data koksma__cell_of(double value);
 
-/* Begins a table: write its columns first, then its rows. The format gives its name.
-   A row may have fewer cells than columns. */
+/* Begins a table, whose name the format gives: write by which column the page sorts it, if any, its columns, then its rows,
+   which may have fewer cells than columns. */
 void koksma__doc_table(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
-/* Begins a table that the page sorts by a column. */
-void koksma__doc_sorted_table(koksma__document *d, const char *column, bool descending, const char *format, ...)
-    KOKSMA_PRINTF(4, 5);
+void koksma__doc_sort(koksma__document *d, const char *column, bool descending);
 /* Columns, such as "t pattern;n7 cases;i3fh %s, slope#slope#%s". Each has a letter for its type: t text, n number, i value
    with its 95 % interval, s value with its standard deviation, v verdict on a published number; then the digits on the
    page; then letters: f the digits are decimal places, h the page hides the column, m it merges cells of neighbouring rows
@@ -167,9 +168,6 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
 
 /* ---- The page ---------------------------------------------------------------------------------------------- */
 
-/* What a page is about: a browser without JavaScript shows only that and where the numbers are. */
-typedef enum koksma__page_kind { KOKSMA__PAGE_STUDY, KOKSMA__PAGE_DATASHEET } koksma__page_kind;
-
 /* A page that is published does not show where its author keeps files. koksma__folder_join makes `folder`, at first empty,
    the folder that it and an absolute path have in common, with a slash at its end; koksma__doc_hide_folder removes it from
    all texts of a finished document, unless it is the root. */
@@ -178,12 +176,12 @@ void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path);
 void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLDER]);
 
 /* Returns the page with the JSON text in it, which the caller frees; NULL: out of memory. */
-char *koksma__page_text(koksma__page_kind kind, const char *json);
+char *koksma__page_text(const char *json);
 
 /* Writes the style of the pages, an element <style>. */
 void koksma__page_style(FILE *f);
 
 /* Writes the JSON text as report.json, and the page that shows it as report.html, into a folder. */
-koksma_status koksma__page_write(const char *folder, koksma__page_kind kind, const char *json);
+koksma_status koksma__page_write(const char *folder, const char *json);
 
 #endif

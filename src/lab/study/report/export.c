@@ -232,50 +232,33 @@ static bool same_file(const char *a, const char *b)
     return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
 }
 
-/* Cuts a path after its folder and returns the name in that folder, which may be the path itself ("." is the folder). */
-static char *split(char **path)
+/* Fails if `path` leads to what runs and reports keep in the study's folder, whether it is there yet or not: the store,
+   also by another name, where SQLite would expect one of its logs, a report, or the folder of reference images. */
+static koksma_status check_target(const char *study, const char *results, const char *path)
 {
-    char *slash = strrchr(*path, '/'), *name = slash ? slash + 1 : *path;
-    static char here[] = ".", root[] = "/";
+    static const char *const own[] = {"results.sqlite", "results.sqlite-", "report.json", "report.html",
+                                      "references"};
+    char references[2 * KOKSMA__PATH], *target = koksma__atomic_target(path);
+    if (!target) { /* with reasons other than memory the path can't be opened either */
+        return errno == ENOMEM ? koksma__fail_memory(strlen(path)) : KOKSMA_OK;
+    }
+    char *slash = strrchr(target, '/');
+    const char *name = slash ? slash + 1 : target, *folder = slash == target ? "/" : slash ? target : ".";
+    bool kept = same_file(results, target);
     if (slash) {
         *slash = '\0';
     }
-    *path = !slash ? here : slash == *path ? root : *path;
-    return name;
-}
-
-/* Fails if `path` leads to the store's file, also by another name, to where SQLite would expect one of its logs, to the
-   name of a file or folder that runs and reports make in the study's folder, whether it is there yet or not, or into
-   the folder of the study's reference images, whose files a run and a report read. */
-static koksma_status check_target(const char *study, const char *results, const char *path)
-{
-    static const char *const own[] = {"report.json", "report.html", "references"};
-    char *store = koksma__atomic_target(results), *target = store ? koksma__atomic_target(path) : NULL;
-    const int reason = errno;
-    bool same = target && same_file(results, target), is_own = false, reference = false;
-    if (target) {
-        char references[2 * KOKSMA__PATH], *store_folder = store, *folder = target;
-        const char *store_name = split(&store_folder), *name = split(&folder);
-        const size_t length = strlen(store_name);
-        same |= !strncmp(name, store_name, length) && (!name[length] || name[length] == '-') &&
-                same_file(store_folder, folder);
-        for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
-            is_own |= !strcmp(name, own[i]) && same_file(study, folder);
-        }
-        snprintf(references, sizeof references, "%s/references", study);
-        reference = strcmp(path, "-") && same_file(references, folder);
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+        const size_t length = strlen(own[i]);
+        const bool same = !strncmp(name, own[i], length) && (!name[length] || own[i][length - 1] == '-');
+        kept |= same && same_file(study, folder);
     }
-    const bool no_memory = !target && reason == ENOMEM; /* with other reasons the path can't be opened either */
-    KOKSMA__FREE(store, target);
-    return no_memory ? koksma__fail_memory(strlen(path))
-           : same    ? koksma__fail(KOKSMA_ARGUMENT,
-                                    "%s: the export would replace the study's results or their log; choose another file",
-                                    path)
-           : is_own
-               ? koksma__fail(KOKSMA_ARGUMENT, "%s: runs and reports use this name there; choose another one", path)
-           : reference ? koksma__fail(KOKSMA_ARGUMENT,
-                                      "%s: the folder has the study's reference images; choose another folder", path)
-                       : KOKSMA_OK;
+    snprintf(references, sizeof references, "%s/references", study);
+    kept |= strcmp(path, "-") && same_file(references, folder);
+    free(target);
+    KOKSMA__FAIL_IF(kept, KOKSMA_ARGUMENT,
+                    "%s: the study keeps its results, reports or reference images there; choose another file", path);
+    return KOKSMA_OK;
 }
 
 koksma_status koksma_study_export(const char *folder, koksma_export_format format, const char *path)

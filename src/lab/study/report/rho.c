@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Sums of rank correlations (a measure has a cell for each scene; the cells are few, so linear search finds them), and
+ * Sums of rank correlations (a measure has a cell for each scene; both are few, so linear search finds them), and
  * rankings of measures by their means. A measure's mean over the chosen cases, and its mean in each resample, are
  * computed from the sums of cells. Two means differ significantly where the p-value of their difference, from the
  * resamples and adjusted by Holm's method, is at most 0.05. Holm's method counts all pairs of measures, not only those
@@ -16,33 +16,6 @@
 
 #include "core/status.h"
 
-/* Finds or adds the sums of a measure, and their cell of a scene; NULL: no memory. */
-static koksma__rho_cell *cell_of(koksma__report *r, koksma__rho_means *s, const char *measure, size_t scene,
-                                 koksma__rho_sums **of)
-{
-    size_t m = 0, c = 0;
-    while (m < s->n && strcmp(s->of[m].measure, measure) != 0) {
-        m++;
-    }
-    if (m == s->n && (*of = koksma__report_add(r, &s->of, &s->n, sizeof **of))) {
-        (*of)->measure = measure;
-    }
-    if (r->status) {
-        return NULL;
-    }
-    *of = &s->of[m];
-    while (c < (*of)->n_cells && (*of)->cells[c].scene != scene) {
-        c++;
-    }
-    koksma__rho_cell *cell =
-        c < (*of)->n_cells ? NULL : koksma__report_add(r, &(*of)->cells, &(*of)->n_cells, sizeof *cell);
-    if (cell) {
-        *cell = (koksma__rho_cell){.scene = scene,
-                                   .draws = koksma__report_memory(r, KOKSMA__RHO_SAMPLES, sizeof *cell->draws)};
-    }
-    return r->status ? NULL : &(*of)->cells[c];
-}
-
 koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_patterns)
 {
     const bool says = n_patterns >= KOKSMA__LEAST_PAIRS && rho->low < rho->high;
@@ -52,25 +25,35 @@ koksma__estimate koksma__rho_shown(const koksma__estimate *rho, size_t n_pattern
 void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const char *measure, const char *scene,
                      size_t n_patterns, const koksma__estimate *rho, const double draws[KOKSMA__RHO_SAMPLES])
 {
-    koksma__rho_sums *of;
-    size_t i = 0;
-    while (i < s->n_scenes && strcmp(s->scenes[i], scene) != 0) {
-        i++;
+    size_t m = 0, k = 0;
+    while (m < s->n && strcmp(s->of[m].measure, measure) != 0) {
+        m++;
     }
-    const char **added = i < s->n_scenes ? NULL : koksma__report_add(r, &s->scenes, &s->n_scenes, sizeof *added);
-    if (added) {
-        *added = scene;
+    while (k < s->n_scenes && strcmp(s->scenes[k], scene) != 0) {
+        k++;
     }
-    koksma__rho_cell *cell = cell_of(r, s, measure, i, &of);
-    if (!cell) {
+    if ((m == s->n && !koksma__report_add(r, &s->of, &s->n, sizeof *s->of)) ||
+        (k == s->n_scenes && !koksma__report_add(r, &s->scenes, &s->n_scenes, sizeof *s->scenes))) {
+        return;
+    }
+    koksma__rho_sums *of = &s->of[m];
+    of->measure = measure;
+    s->scenes[k] = scene;
+    while (of->n_cells <= k && koksma__report_add(r, &of->cells, &of->n_cells, sizeof *of->cells)) {
+    }
+    koksma__rho_cell *cell = r->status ? NULL : &of->cells[k];
+    if (cell && !cell->draws) {
+        cell->draws = koksma__report_memory(r, KOKSMA__RHO_SAMPLES, sizeof *cell->draws);
+    }
+    if (r->status) {
         return;
     }
     const bool few = n_patterns < KOKSMA__LEAST_PAIRS;
     cell->total += rho->value;
     cell->all++;
     cell->few += few;
-    for (size_t k = 0; k < KOKSMA__RHO_SAMPLES; k++) {
-        cell->draws[k] += draws[k];
+    for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
+        cell->draws[i] += draws[i];
     }
     of->total += rho->value;
     of->all++;
@@ -114,9 +97,9 @@ static void stand(koksma__report *r, const koksma__rho_sums *m, const bool *scen
     for (size_t i = 0; i < KOKSMA__RHO_SAMPLES; i++) {
         draws[i] = 0;
     }
-    for (size_t c = 0; c < m->n_cells; c++) {
-        const koksma__rho_cell *cell = &m->cells[c];
-        if (scenes[cell->scene]) {
+    for (size_t k = 0; k < m->n_cells; k++) {
+        const koksma__rho_cell *cell = &m->cells[k];
+        if (scenes[k] && cell->draws) {
             out->cases += cell->all;
             few += cell->few;
             total += cell->total;
@@ -139,34 +122,41 @@ static void stand(koksma__report *r, const koksma__rho_sums *m, const bool *scen
 }
 
 /* Finds by how much each mean is less than the first, and adjusts the p-values of the means, and of all pairs of
-   measures that can be compared, by Holm's method. draws[i]: the resamples of mean i of the ranking. */
-static void compare(koksma__report *r, koksma__rho_ranking *k, double *const *draws)
+   measures that can be compared, by Holm's method. */
+static void compare(koksma__report *r, const koksma__rho_means *s, koksma__rho_ranking *k)
 {
-    const size_t n = k->n;
-    double *p = koksma__report_memory(r, n * (n + 1), sizeof *p), *pairs = p + n;
-    for (size_t i = 0; koksma__report_goes_on(r) && i < n; i++) {
-        const koksma__draws mean = {k->at[i].mean.value, 1, draws[i]}, first = {k->at[0].mean.value, 1, draws[0]};
-        koksma__report_keep(r, koksma__bootstrap_difference(&mean, &first, KOKSMA__RHO_SAMPLES, &k->at[i].less));
-        if (i == 0 || isnan(k->at[i].mean.low) || isnan(k->at[0].mean.low)) {
-            k->at[i].less.low = k->at[i].less.high = NAN;
+    double *p = koksma__report_memory(r, k->n * (k->n + 1), sizeof *p), *pairs = p + k->n;
+    for (size_t i = 0; koksma__report_goes_on(r) && i < k->n; i++) {
+        const size_t a = k->order[i], first = k->order[0];
+        koksma__rho_standing *x = &k->of[a];
+        const double *draws = s->draws + a * KOKSMA__RHO_SAMPLES;
+        const koksma__draws mean = {x->mean.value, 1, draws},
+                            best = {k->of[first].mean.value, 1, s->draws + first * KOKSMA__RHO_SAMPLES};
+        koksma__report_keep(r, koksma__bootstrap_difference(&mean, &best, KOKSMA__RHO_SAMPLES, &x->less));
+        if (i == 0 || isnan(x->mean.low) || isnan(k->of[first].mean.low)) {
+            x->less.low = x->less.high = NAN;
         }
-        p[i] = k->at[i].p;
-        for (size_t j = i; j < n; j++) {
-            const koksma__rho_standing *x = &k->at[i], *y = &k->at[j];
+        p[i] = x->p;
+        for (size_t j = i; j < k->n; j++) {
+            const size_t b = k->order[j];
+            const koksma__rho_standing *y = &k->of[b];
             const bool compared = i != j && x->cases == y->cases && !isnan(x->mean.low) && !isnan(y->mean.low);
-            k->p[i * n + j] = k->p[j * n + i] = compared ? 1 : (double)NAN;
+            k->p[a * s->n + b] = k->p[b * s->n + a] = compared ? 1 : (double)NAN;
             if (compared) {
-                pairs[k->n_pairs++] = koksma__resampled_p(draws[i], 1, draws[j], 1, KOKSMA__RHO_SAMPLES);
+                pairs[k->n_pairs++] =
+                    koksma__resampled_p(draws, 1, s->draws + b * KOKSMA__RHO_SAMPLES, 1, KOKSMA__RHO_SAMPLES);
             }
         }
     }
-    koksma__report_keep(r, r->status ? r->status : koksma__holm(p, n));
+    koksma__report_keep(r, r->status ? r->status : koksma__holm(p, k->n));
     koksma__report_keep(r, r->status ? r->status : koksma__holm(pairs, k->n_pairs));
-    for (size_t i = 0, next = 0; !r->status && i < n; i++) {
-        k->at[i].p = p[i];
-        for (size_t j = i + 1; j < n; j++) {
-            if (!isnan(k->p[i * n + j])) {
-                k->p[i * n + j] = k->p[j * n + i] = pairs[next++];
+    for (size_t i = 0, next = 0; !r->status && i < k->n; i++) {
+        const size_t a = k->order[i];
+        k->of[a].p = p[i];
+        for (size_t j = i + 1; j < k->n; j++) {
+            const size_t b = k->order[j];
+            if (!isnan(k->p[a * s->n + b])) {
+                k->p[a * s->n + b] = k->p[b * s->n + a] = pairs[next++];
             }
         }
     }
@@ -174,46 +164,32 @@ static void compare(koksma__report *r, koksma__rho_ranking *k, double *const *dr
 
 koksma__rho_ranking koksma__rho_rank(koksma__report *r, const koksma__rho_means *s, const bool *scenes)
 {
-    koksma__rho_ranking k = {.at = koksma__report_memory(r, s->n, sizeof *k.at),
-                             .place = koksma__report_memory(r, s->n, sizeof *k.place),
-                             .p = koksma__report_memory(r, s->n * s->n, sizeof *k.p)};
-    koksma__rho_standing *found = koksma__report_memory(r, s->n, sizeof *found);
-    double **draws = koksma__report_memory(r, s->n, sizeof *draws);
+    koksma__rho_ranking k = {.measures = s->n,
+                             .of = koksma__report_memory(r, s->n, sizeof *k.of),
+                             .p = koksma__report_memory(r, s->n * s->n, sizeof *k.p),
+                             .order = koksma__report_memory(r, s->n, sizeof *k.order)};
     double *means = koksma__report_memory(r, s->n, sizeof *means);
-    size_t *order = koksma__report_memory(r, s->n, sizeof *order);
     for (size_t m = 0; koksma__report_goes_on(r) && m < s->n; m++) {
-        stand(r, &s->of[m], scenes, s->draws + k.n * KOKSMA__RHO_SAMPLES, &found[k.n]);
-        found[k.n].measure = m;
-        means[k.n] = found[k.n].mean.value;
-        k.n += found[k.n].cases > 0;
+        stand(r, &s->of[m], scenes, s->draws + m * KOKSMA__RHO_SAMPLES, &k.of[m]);
+        means[m] = k.of[m].cases ? k.of[m].mean.value : (double)NAN;
     }
-    if (r->status) {
-        return (koksma__rho_ranking){0};
+    if (!r->status) {
+        k.n = koksma__order_means(means, 1, s->n, true, k.order);
+        compare(r, s, &k);
     }
-    koksma__order_means(means, 1, k.n, true, order);
-    for (size_t m = 0; m < s->n; m++) {
-        k.place[m] = k.n;
-    }
-    for (size_t i = 0; i < k.n; i++) {
-        k.at[i] = found[order[i]];
-        draws[i] = s->draws + order[i] * KOKSMA__RHO_SAMPLES;
-        k.place[k.at[i].measure] = i;
-    }
-    compare(r, &k, draws);
     return r->status ? (koksma__rho_ranking){0} : k;
 }
 
 bool koksma__rho_is_better(const koksma__rho_ranking *r, size_t a, size_t b)
 {
-    const size_t i = r->place[a], j = r->place[b];
-    return i < j && j < r->n && r->p[i * r->n + j] <= LEVEL && r->at[i].mean.value > r->at[j].mean.value;
+    return r->of[a].cases && r->of[b].cases && r->p[a * r->measures + b] <= LEVEL &&
+           r->of[a].mean.value > r->of[b].mean.value;
 }
 
 /* Whether a measure's mean is significantly above 0 (at 5 % for all measures together). */
 static bool predicts(const koksma__rho_ranking *r, size_t measure)
 {
-    const size_t i = r->place[measure];
-    return i < r->n && r->at[i].p <= LEVEL && r->at[i].mean.value > 0;
+    return r->of[measure].cases && r->of[measure].p <= LEVEL && r->of[measure].mean.value > 0;
 }
 
 /* ---- Without one scene --------------------------------------------------------------------------------- */
@@ -239,7 +215,7 @@ bool koksma__rho_always(const koksma__rho_jackknife *j, koksma__rho_statement st
         const koksma__rho_ranking *r = &j->of[i];
         always = statement == KOKSMA__RHO_BETTER     ? koksma__rho_is_better(r, a, b)
                  : statement == KOKSMA__RHO_PREDICTS ? predicts(r, a)
-                                                     : r->place[a] == 0;
+                                                     : r->order[0] == a;
     }
     return always;
 }
@@ -248,8 +224,8 @@ koksma__estimate koksma__rho_range(const koksma__rho_jackknife *j, size_t measur
 {
     koksma__estimate range = {NAN, NAN, NAN};
     for (size_t i = 0; i < j->n; i++) {
-        const size_t at = j->of[i].place[measure];
-        const double mean = at < j->of[i].n ? j->of[i].at[at].mean.value : (double)NAN;
+        const koksma__rho_standing *of = &j->of[i].of[measure];
+        const double mean = of->cases ? of->mean.value : (double)NAN;
         range.value = i == 0 ? mean : range.value;
         range.low = fmin(range.low, mean);
         range.high = fmax(range.high, mean);
@@ -262,8 +238,8 @@ koksma__estimate koksma__rho_range(const koksma__rho_jackknife *j, size_t measur
 /* Writes which measure comes first, and whether that depends on a single scene. */
 static void say_first(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
-    const koksma__rho_sums *first = &s->of[j->of[0].at[0].measure];
-    const bool always = koksma__rho_always(j, KOKSMA__RHO_FIRST, j->of[0].at[0].measure, 0);
+    const koksma__rho_sums *first = &s->of[0];
+    const bool always = koksma__rho_always(j, KOKSMA__RHO_FIRST, 0, 0);
     koksma__doc_say(d,
                     always
                         ? "*Best predictor:* `%s` (mean Spearman %+.2f over %zu case%s; the interval excludes 0 in "
@@ -274,7 +250,7 @@ static void say_first(koksma__document *d, const koksma__rho_means *s, const kok
     if (j->n == 1) {
         koksma__doc_say(d, ". All cases are of one scene; other scenes may differ.");
     } else if (always) {
-        const koksma__estimate range = koksma__rho_range(j, j->of[0].at[0].measure);
+        const koksma__estimate range = koksma__rho_range(j, 0);
         koksma__doc_say(d, ". It comes first whichever one of the %zu scenes is left out (%+.2f to %+.2f).",
                         s->n_scenes, range.low, range.high);
     } else {
@@ -330,9 +306,9 @@ static void say_sure(koksma__document *d, const koksma__rho_means *s, const koks
 
 void koksma__rho_say(koksma__document *d, const koksma__rho_means *s, const koksma__rho_jackknife *j)
 {
-    const koksma__rho_sums *first = &s->of[j->of[0].at[0].measure];
+    const koksma__rho_sums *first = &s->of[0];
     const bool too_few = first->few == first->all;
-    koksma__doc_answer(d, !too_few && koksma__rho_always(j, KOKSMA__RHO_FIRST, j->of[0].at[0].measure, 0), "%s", "");
+    koksma__doc_answer(d, !too_few && koksma__rho_always(j, KOKSMA__RHO_FIRST, 0, 0), "%s", "");
     if (too_few) {
         koksma__doc_say(d,
                         "*Undecided:* a rank correlation needs %d patterns or more for an interval. The largest "

@@ -17,10 +17,9 @@ enum { KOKSMA__RHO_SAMPLES = 20000 };
 
 /* Sums over the cases of a measure in one scene. */
 typedef struct koksma__rho_cell {
-    size_t scene;
     size_t all, few; /* number of cases, and of those with too few patterns for an interval */
     double total;    /* sum of rho over the cases */
-    double *draws;   /* sum of rho over the cases, for each resample */
+    double *draws;   /* sum of rho over the cases, for each resample; NULL: there is no case */
 } koksma__rho_cell;
 
 /* Sums of rho of one measure. */
@@ -30,7 +29,7 @@ typedef struct koksma__rho_sums {
     size_t all, few; /* as of a cell */
     size_t sure;     /* number of cases whose interval excludes 0 */
     size_t n_cells;
-    koksma__rho_cell *cells;
+    koksma__rho_cell *cells; /* of the first n_cells scenes */
 } koksma__rho_sums;
 
 typedef struct koksma__rho_means {
@@ -53,19 +52,20 @@ void koksma__rho_add(koksma__report *r, koksma__rho_means *s, const char *measur
 void koksma__rho_order(koksma__report *r, koksma__rho_means *s);
 
 typedef struct koksma__rho_standing {
-    size_t measure; /* index of the measure in koksma__rho_means */
-    size_t cases;
+    size_t cases;          /* 0: the measure has none in the subset */
     koksma__estimate mean; /* the mean with its interval, which is NaN if a case has too few patterns */
     koksma__estimate less; /* the mean minus that of the first measure */
     double p;              /* p-value of "the mean is 0", adjusted by Holm over the measures */
 } koksma__rho_standing;
 
 typedef struct koksma__rho_ranking {
-    size_t n;                 /* number of measures that have cases in the subset */
-    size_t n_pairs;           /* number of compared pairs: both measures have intervals and equally many cases */
-    koksma__rho_standing *at; /* sorted by mean, the largest first */
-    size_t *place;            /* for each measure, its index in `at`; n: it has no cases in the subset */
-    double *p;                /* n x n p-values of "the means are equal", by Holm over the pairs; NaN: not compared */
+    size_t n;        /* number of measures that have cases in the subset */
+    size_t n_pairs;  /* number of compared pairs: both measures have intervals and equally many cases */
+    size_t measures; /* number of all measures, by whose index are: */
+    koksma__rho_standing *of;
+    double
+        *p; /* [measures][measures]: p-values of "the means are equal", by Holm over the pairs; NaN: not compared */
+    size_t *order; /* the n measures by mean, the largest first */
 } koksma__rho_ranking;
 
 /* Ranks the measures over the cases of some scenes; scenes: whether each is one of them. */

@@ -143,7 +143,7 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     koksma_status status = build(&r, run, &d);
     koksma__mean_coherence_forget(&r);
     hide_folders(&study->plan, &d);
-    status = status ? status : koksma__page_write(study->folder, KOKSMA__PAGE_STUDY, d.json.text);
+    status = status ? status : koksma__page_write(study->folder, d.json.text);
     koksma__json_writer_fini(&d.json);
     return status;
 }

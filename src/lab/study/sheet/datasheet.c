@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Writes datasheets: runs all parts in order and puts the sections together. Everything is computed before any
- * section is written, because the first section, the verdict, depends on all results. The format is that of a report
+ * Writes datasheets: runs all parts in order and puts the sections together. What the first section, the verdict,
+ * depends on is computed before any is written. The format is that of a report
  * (docs/report-format.md) with other members before the content, and the page that shows reports also shows
  * datasheets. Only the member "seconds" depends on the clock.
  */
@@ -14,7 +14,7 @@
 #include "study/plan/plan.h"
 #include "study/sheet/sheet.h"
 
-static void put_head(const koksma__sheet *sheet, koksma__document *d)
+static koksma_status put_head(koksma__sheet *sheet, koksma__document *d)
 {
     char title[KOKSMA_MAX_SPEC + 32];
     snprintf(title, sizeof title, "Datasheet of %s", sheet->samplers[0]->text);
@@ -25,10 +25,11 @@ static void put_head(const koksma__sheet *sheet, koksma__document *d)
     }
     koksma__json_end(&d->json);
     koksma__doc_content(d);
+    return KOKSMA_OK;
 }
 
 /* Writes the last section: what was left out and why, and the version and seeds behind the numbers. */
-static void put_origin(koksma__sheet *sheet, koksma__document *d)
+static koksma_status put_origin(koksma__sheet *sheet, koksma__document *d)
 {
     koksma__document notes = sheet->notes;
     sheet->notes = (koksma__document){0};
@@ -43,40 +44,31 @@ static void put_origin(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_append(d, &notes);
     }
     koksma__doc_end(d);
+    return KOKSMA_OK;
 }
 
-static void note_bounds(koksma__sheet *sheet)
-{
-    for (size_t m = 0; m < sheet->plane.n_measures; m++) {
-        const koksma__sheet_measure *measure = &sheet->plane.measures[m];
-        if (measure->n_bounds) {
-            koksma__fail(KOKSMA_ARGUMENT, "%zu values are lower bounds: the search was cut short", measure->n_bounds);
-            koksma__sheet_note_error(sheet, measure->name);
-        }
-    }
-}
+/* What several sections need, and then the sections in their order. */
+static koksma_status (*const parts[])(koksma__sheet *sheet, koksma__document *d) = {koksma__sheet_look_for_bias,
+                                                                                    koksma__sheet_measure_plane,
+                                                                                    koksma__sheet_rank,
+                                                                                    put_head,
+                                                                                    koksma__sheet_verdict,
+                                                                                    koksma__sheet_draw_points,
+                                                                                    koksma__sheet_put_rankings,
+                                                                                    koksma__sheet_put_measures,
+                                                                                    koksma__sheet_integrals,
+                                                                                    koksma__sheet_spectra,
+                                                                                    koksma__sheet_verify,
+                                                                                    koksma__sheet_projections,
+                                                                                    put_origin};
 
 static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
 {
-    koksma_status status = koksma__sheet_look_for_bias(sheet);
-    status = status ? status : koksma__sheet_measure_plane(sheet);
-    status = status ? status : koksma__sheet_rank(sheet);
-    KOKSMA__TRY(status);
-    note_bounds(sheet);
-    put_head(sheet, d);
-    koksma__sheet_verdict(sheet, d);
-    status = koksma__sheet_draw_points(sheet, d);
-    if (!status) {
-        koksma__sheet_put_rankings(sheet, d);
-        koksma__sheet_put_measures(sheet, d);
-        status = koksma__sheet_integrals(sheet, d);
-        status = status ? status : koksma__sheet_spectra(sheet, d);
-    }
-    status = status ? status : koksma__sheet_verify(sheet, d);
-    status = status ? status : koksma__sheet_projections(sheet, d);
-    put_origin(sheet, d);
-    koksma__doc_close(d);
     char folder[KOKSMA__FOLDER] = "";
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        KOKSMA__TRY(parts[i](sheet, d));
+    }
+    koksma__doc_close(d);
     for (size_t i = 0; i < sheet->n_samplers; i++) {
         const char *text = sheet->samplers[i]->text;
         const size_t at = koksma__plan_path(text, 0);
@@ -86,7 +78,7 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
         koksma__folder_join(folder, sheet->options->scenes[i]);
     }
     koksma__doc_hide_folder(d, folder);
-    return status;
+    return KOKSMA_OK;
 }
 
 static koksma_status check_options(const koksma_datasheet_options *o)
@@ -113,21 +105,6 @@ static koksma_status check_options(const koksma_datasheet_options *o)
     return KOKSMA_OK;
 }
 
-/* Ends the document with the seconds since start_s, and passes the text on; with a status frees the document and
-   returns it. Errors: MEMORY. */
-static koksma_status finish(koksma__document *d, koksma_status status, double start_s, char **json)
-{
-    size_t size;
-    if (status) {
-        koksma__json_writer_fini(&d->json);
-        return status;
-    }
-    koksma__json_break(&d->json);
-    koksma__json_write_rounded(&d->json, "seconds", koksma__now_s() - start_s, 3);
-    koksma__json_end(&d->json);
-    return koksma__json_finish(&d->json, json, &size);
-}
-
 koksma_status koksma_datasheet(const koksma_datasheet_options *options, const koksma_run *run, char **json)
 {
     KOKSMA__REQUIRE(options, json);
@@ -138,15 +115,19 @@ koksma_status koksma_datasheet(const koksma_datasheet_options *options, const ko
     *json = NULL;
     koksma_status status = sheet ? check_options(options) : koksma__fail_memory(sizeof *sheet);
     if (!status) {
+        size_t size;
         *sheet = (koksma__sheet){.options = options, .run = run};
         status = koksma__sheet_choose(sheet);
         status = status ? status : put_content(sheet, &d);
-    }
-    status = finish(&d, status, start_s, json);
-    if (sheet) {
+        if (!status) {
+            koksma__json_break(&d.json);
+            koksma__json_write_rounded(&d.json, "seconds", koksma__now_s() - start_s, 3);
+            koksma__json_end(&d.json);
+            status = koksma__json_finish(&d.json, json, &size);
+        }
+        koksma__json_writer_fini(&d.json);
         koksma__sheet_values_fini(&sheet->plane);
         koksma__json_writer_fini(&sheet->notes.json);
-        koksma__sheet_drop_commands(sheet);
         free(sheet->rankings);
     }
     free(sheet);
@@ -159,7 +140,7 @@ koksma_status koksma_datasheet_page(const char *json, char **page)
     *page = NULL;
     KOKSMA__FAIL_IF(strncmp(json, "{\"format\":\"koksma-datasheet\"", 27) != 0 || strstr(json, "</"), KOKSMA_ARGUMENT,
                     "json: it must be the text that koksma_datasheet returned");
-    *page = koksma__page_text(KOKSMA__PAGE_DATASHEET, json);
+    *page = koksma__page_text(json);
     KOKSMA__REQUIRE_MEMORY(*page, strlen(json));
     return KOKSMA_OK;
 }

@@ -17,9 +17,7 @@ enum {
     KOKSMA__SHEET_SAMPLERS = KOKSMA_MAX_BESIDE + 1,
     KOKSMA__SHEET_SIZES = 6,
     KOKSMA__SHEET_MEASURES = 64,
-    KOKSMA__SHEET_SPP = 3,
-    KOKSMA__SHEET_COMMAND = 8192, /* bytes of a list of samplers or sizes with the longest names */
-    KOKSMA__SHEET_COMMANDS = 64
+    KOKSMA__SHEET_SPP = 3
 };
 
 /* A sampler on the sheet; samplers[0] is the sampler that the sheet describes. */
@@ -85,14 +83,11 @@ typedef struct koksma__sheet {
     char metric_text[KOKSMA_MAX_SPEC];
     const char *const *scenes;
     size_t n_scenes;
-    char *commands[KOKSMA__SHEET_COMMANDS];
-    size_t n_commands;
     koksma__document notes; /* notes for a list: what is left out, and why */
     size_t n_notes;
     koksma__sheet_bias bias;
     koksma__sheet_values plane;
     koksma__sheet_ranking *rankings; /* index i * n_spp + k: scene i with the k-th number of samples */
-    size_t n_rankings;
 } koksma__sheet;
 
 /* Returns the run for the next part, whose work is `share` of the whole. A part may consist of several passes; a new
@@ -110,15 +105,11 @@ void koksma__sheet_note_error(koksma__sheet *sheet, const char *what);
 /* Writes a text as one word of a command, quoted for a shell if necessary. */
 void koksma__sheet_word(const char *text, char *out, size_t size);
 
-/* Writes the operand that names sets of a sampler in a command, as one word: pattern:SPEC@n, followed by @dim unless
-   dim is 2. */
-void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim, char *out, size_t size);
-
-/* Collect command lines for a section, without the word "koksma"; koksma__sheet_put_commands writes and empties
-   the list. */
-void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...) KOKSMA_PRINTF(2, 3);
-void koksma__sheet_put_commands(koksma__sheet *sheet, koksma__document *d);
-void koksma__sheet_drop_commands(koksma__sheet *sheet);
+/* The operand that names sets of a sampler in a command, as one word: pattern:SPEC@n, followed by @dim unless dim is 2. */
+typedef struct koksma__sheet_operand {
+    char text[2 * KOKSMA_MAX_SPEC];
+} koksma__sheet_operand;
+koksma__sheet_operand koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim);
 
 /* ---- Samplers, sizes and points -------------------------------------------------------------------------------- */
 
@@ -143,8 +134,7 @@ void koksma__sheet_values_fini(koksma__sheet_values *values);
 const koksma_tally *koksma__sheet_tally(const koksma__sheet_values *values, size_t s, size_t m, size_t i);
 
 /* Writes a table of all values and the commands that compute them. */
-void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *values, const char *name,
-                              koksma__document *d);
+void koksma__sheet_put_values(const koksma__sheet_values *values, const char *name, koksma__document *d);
 
 /* Whether samplers a and b have equal values of measure m at size number i that do not vary between sets. Means of values
    that vary are never called equal. */
@@ -154,26 +144,22 @@ bool koksma__sheet_equal(const koksma__sheet_values *values, size_t a, size_t b,
    test, whose level is 5 % divided by `tests`, does not decide. */
 int koksma__sheet_compare(const koksma__sheet_values *values, size_t a, size_t b, size_t m, size_t i, size_t tests);
 
-/* The first function evaluates the measures in the plane, the second writes their section. */
-koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet);
-void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
+/* ---- The parts, in their order (datasheet.c) ------------------------------------------------------------------- */
 
-/* ---- Bias -------------------------------------------------------------------------------------------------------- */
+/* What several sections need: whether samplers[0] is unbiased, from many sets; the measures in the plane, with notes on
+   those whose values are only bounds; the rankings of the samplers in scenes. They write nothing. */
+koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_rank(koksma__sheet *sheet, koksma__document *d);
 
-/* Tests whether samplers[0] is unbiased, from many sets; notes the reason if it cannot be tested. */
-koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet);
-
-/* ---- The other sections ---------------------------------------------------------------------------------------- */
-
-/* Drawings, verified properties and projections of the points; spectra and pair correlations; errors of integration; the
-   rankings of samplers in scenes; the verdict. */
+/* The sections. */
+koksma_status koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d);
 koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d);
+koksma_status koksma__sheet_spectra(koksma__sheet *sheet, koksma__document *d);
 koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d);
 koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *d);
-koksma_status koksma__sheet_spectra(koksma__sheet *sheet, koksma__document *d);
-koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d);
-koksma_status koksma__sheet_rank(koksma__sheet *sheet);
-void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d);
-void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d);
 
 #endif

@@ -89,25 +89,23 @@ static void put_table(const koksma__sheet *sheet, const koksma_integration *resu
     }
 }
 
-static void put_commands(koksma__sheet *sheet, koksma__document *d)
+static void put_commands(const koksma__sheet *sheet, koksma__document *d)
 {
-    char list[128] = "", sources[KOKSMA__SHEET_COMMAND], source[2 * KOKSMA_MAX_SPEC];
+    char list[128] = "";
     for (size_t i = 0; i < N_INTEGRANDS; i++) {
-        const size_t used = strlen(list);
-        snprintf(list + used, sizeof list - used, "%s%s", i ? "," : "", integrands[i]);
+        koksma__text_join(list, sizeof list, ",", integrands[i]);
     }
+    koksma__doc_commands(d);
     for (size_t s = 0; s < sheet->n_samplers; s++) {
-        sources[0] = '\0';
+        char sources[KOKSMA__DOC_COMMAND] = "";
         for (size_t i = 0; i < sheet->n_sizes; i++) {
-            const size_t used = strlen(sources);
-            koksma__sheet_source(sheet->samplers[s], sheet->sizes[i], 2, source, sizeof source);
-            snprintf(sources + used, sizeof sources - used, " %s", source);
+            koksma__text_join(sources, sizeof sources, " ",
+                              koksma__sheet_source(sheet->samplers[s], sheet->sizes[i], 2).text);
         }
-        koksma__sheet_command(sheet, "integrate %s%s --trials %zu --seed %llu", list, sources,
-                              koksma__sheet_trials(sheet->samplers[s], sheet->trials),
-                              (unsigned long long)sheet->samplers[s]->seed);
+        koksma__doc_command(d, "koksma integrate %s %s --trials %zu --seed %llu", list, sources,
+                            koksma__sheet_trials(sheet->samplers[s], sheet->trials),
+                            (unsigned long long)sheet->samplers[s]->seed);
     }
-    koksma__sheet_put_commands(sheet, d);
 }
 
 koksma_status koksma__sheet_integrals(koksma__sheet *sheet, koksma__document *d)

@@ -168,8 +168,18 @@ int koksma__sheet_compare(const koksma__sheet_values *v, size_t a, size_t b, siz
     return fabs(x->mean - y->mean) > t * sqrt(variance) ? sign : 0;
 }
 
-koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet)
+/* Notes a measure some of whose values are only bounds, because a search was cut short. */
+static void note_bounds(koksma__sheet *sheet, const koksma__sheet_measure *measure)
 {
+    if (measure->n_bounds) {
+        koksma__fail(KOKSMA_ARGUMENT, "%zu values are lower bounds: the search was cut short", measure->n_bounds);
+        koksma__sheet_note_error(sheet, measure->name);
+    }
+}
+
+koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet, koksma__document *d)
+{
+    (void)d;
     koksma__sheet_values *v = &sheet->plane;
     const koksma_measure *measure;
     *v = (koksma__sheet_values){.dim = 2,
@@ -189,7 +199,11 @@ koksma_status koksma__sheet_measure_plane(koksma__sheet *sheet)
         v->trials[s] = koksma__sheet_trials(sheet->samplers[s], sheet->trials);
     }
     const koksma_run run = koksma__sheet_part(sheet, 0.4, 1);
-    return koksma__sheet_evaluate(sheet, v, &run);
+    const koksma_status status = koksma__sheet_evaluate(sheet, v, &run);
+    for (size_t m = 0; m < v->n_measures && !status; m++) {
+        note_bounds(sheet, &v->measures[m]);
+    }
+    return status;
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
@@ -304,10 +318,9 @@ static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
     }
 }
 
-void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *v, const char *name,
-                              koksma__document *d)
+void koksma__sheet_put_values(const koksma__sheet_values *v, const char *name, koksma__document *d)
 {
-    char list[KOKSMA__SHEET_COMMAND] = "", sizes[128] = "", source[2 * KOKSMA_MAX_SPEC];
+    char list[KOKSMA__DOC_COMMAND] = "", sizes[128] = "";
     put_values(v, name, d);
     for (size_t m = 0; m < v->n_measures; m++) {
         koksma__text_join(list, sizeof list, ",", v->measures[m].name);
@@ -316,15 +329,15 @@ void koksma__sheet_put_values(koksma__sheet *sheet, const koksma__sheet_values *
         const size_t used = strlen(sizes);
         snprintf(sizes + used, sizeof sizes - used, "%s%zu", used ? "," : "", v->sizes[i]);
     }
+    koksma__doc_commands(d);
     for (size_t s = 0; s < v->n_samplers; s++) {
-        koksma__sheet_source(v->samplers[s], v->sizes[v->n_sizes - 1], v->dim, source, sizeof source);
-        koksma__sheet_command(sheet, "measure %s --sizes %s -m %s --trials %zu --seed %llu", source, sizes, list,
-                              v->trials[s], (unsigned long long)v->samplers[s]->seed);
+        koksma__doc_command(d, "koksma measure %s --sizes %s -m %s --trials %zu --seed %llu",
+                            koksma__sheet_source(v->samplers[s], v->sizes[v->n_sizes - 1], v->dim).text, sizes, list,
+                            v->trials[s], (unsigned long long)v->samplers[s]->seed);
     }
-    koksma__sheet_put_commands(sheet, d);
 }
 
-void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
+koksma_status koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
 {
     const koksma__sheet_values *v = &sheet->plane;
     koksma__doc_section(d, "measures", "Discrepancies and distances");
@@ -343,7 +356,8 @@ void koksma__sheet_put_measures(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_end(d);
     }
     koksma__doc_collapsed_section(d, "values", "All values, and the commands that give them");
-    koksma__sheet_put_values(sheet, v, "values", d);
+    koksma__sheet_put_values(v, "values", d);
     koksma__doc_end(d);
     koksma__doc_end(d);
+    return KOKSMA_OK;
 }

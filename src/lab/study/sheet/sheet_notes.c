@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Functions that all parts of a datasheet share: progress over all parts, notes on what is left out, and the
-   commands that reproduce the numbers. */
+/* Functions that all parts of a datasheet share: progress over all parts, notes on what is left out, and
+   words of the commands that reproduce the numbers. */
 #include "study/sheet/sheet.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/c_locale.h"
 #include "core/parallel.h"
 #include "core/status.h"
 
@@ -49,7 +47,7 @@ koksma_run koksma__sheet_one_set(koksma__sheet *sheet)
     return (koksma_run){.threads = 1, .keep_going = keep_going_in_set, .context = sheet};
 }
 
-/* ---- Notes and commands ------------------------------------------------------------------------------------ */
+/* ---- Notes and words of commands ------------------------------------------------------------------------------------ */
 
 void koksma__sheet_note_error(koksma__sheet *sheet, const char *what)
 {
@@ -85,42 +83,14 @@ void koksma__sheet_word(const char *text, char *out, size_t size)
     snprintf(out + used, size - used, "'");
 }
 
-void koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim, char *out, size_t size)
+koksma__sheet_operand koksma__sheet_source(const koksma__sheet_sampler *sampler, size_t n, int dim)
 {
+    koksma__sheet_operand operand;
     char text[2 * KOKSMA_MAX_SPEC], deep[16] = "";
     if (dim != 2) {
         snprintf(deep, sizeof deep, "@%d", dim);
     }
     snprintf(text, sizeof text, "pattern:%s@%zu%s", sampler->text, n, deep);
-    koksma__sheet_word(text, out, size);
-}
-
-void koksma__sheet_command(koksma__sheet *sheet, const char *format, ...)
-{
-    char line[2 * KOKSMA__SHEET_COMMAND];
-    const int used = snprintf(line, sizeof line, "koksma ");
-    va_list arguments;
-    va_start(arguments, format);
-    koksma__vsnprintf(line + used, sizeof line - (size_t)used, format, arguments);
-    va_end(arguments);
-    char *copy = sheet->n_commands < KOKSMA__SHEET_COMMANDS ? strdup(line) : NULL;
-    if (copy) {
-        sheet->commands[sheet->n_commands++] = copy;
-    } else if (!sheet->notes.json.status) {
-        sheet->notes.json.status = koksma__fail_memory(strlen(line) + 1);
-    }
-}
-
-void koksma__sheet_drop_commands(koksma__sheet *sheet)
-{
-    for (size_t i = 0; i < sheet->n_commands; i++) {
-        free(sheet->commands[i]);
-    }
-    sheet->n_commands = 0;
-}
-
-void koksma__sheet_put_commands(koksma__sheet *sheet, koksma__document *d)
-{
-    koksma__doc_commands(d, (const char *const *)sheet->commands, sheet->n_commands);
-    koksma__sheet_drop_commands(sheet);
+    koksma__sheet_word(text, operand.text, sizeof operand.text);
+    return operand;
 }

@@ -50,14 +50,6 @@ static koksma_status draw_set(const koksma__sheet_sampler *sampler, size_t n, bo
     return status;
 }
 
-static void put_plot_command(koksma__sheet *sheet, const koksma__sheet_sampler *sampler, size_t n)
-{
-    char source[2 * KOKSMA_MAX_SPEC];
-    koksma__sheet_source(sampler, n, 2, source, sizeof source);
-    koksma__sheet_command(sheet, "plot %s --seed %llu -o points-%zu.svg", source, (unsigned long long)sampler->seed,
-                          n);
-}
-
 koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *d)
 {
     const size_t common = koksma__sheet_size(sheet, DRAWN / 4);
@@ -73,12 +65,15 @@ koksma_status koksma__sheet_draw_points(koksma__sheet *sheet, koksma__document *
     for (size_t s = 1; s < sheet->n_samplers && !status; s++) {
         status = draw_set(sheet->samplers[s], common, false, d);
     }
+    koksma__doc_commands(d);
     for (size_t i = 0; i < sheet->n_sizes; i++) {
-        if (sheet->sizes[i] <= DRAWN) {
-            put_plot_command(sheet, sheet->samplers[0], sheet->sizes[i]);
+        const size_t n = sheet->sizes[i];
+        if (n <= DRAWN) {
+            koksma__doc_command(d, "koksma plot %s --seed %llu -o points-%zu.svg",
+                                koksma__sheet_source(sheet->samplers[0], n, 2).text,
+                                (unsigned long long)sheet->samplers[0]->seed, n);
         }
     }
-    koksma__sheet_put_commands(sheet, d);
     koksma__doc_end(d);
     return status;
 }
@@ -129,11 +124,14 @@ static void put_findings(const koksma_findings *findings, const char *name, koks
     }
 }
 
-static void put_verify_command(koksma__sheet *sheet, const koksma__sheet_sampler *sampler, size_t n, int dim)
+static void put_verify_commands(koksma__document *d, koksma__sheet_sampler *const *samplers, size_t count, size_t n,
+                                int dim)
 {
-    char source[2 * KOKSMA_MAX_SPEC];
-    koksma__sheet_source(sampler, n, dim, source, sizeof source);
-    koksma__sheet_command(sheet, "verify %s --seed %llu", source, (unsigned long long)sampler->seed);
+    koksma__doc_commands(d);
+    for (size_t s = 0; s < count; s++) {
+        koksma__doc_command(d, "koksma verify %s --seed %llu", koksma__sheet_source(samplers[s], n, dim).text,
+                            (unsigned long long)samplers[s]->seed);
+    }
 }
 
 koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
@@ -158,10 +156,7 @@ koksma_status koksma__sheet_verify(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_collapsed_section(d, "findings", "Every finding about %s", sheet->samplers[0]->text);
         put_findings(&findings[0], "findings", d);
         koksma__doc_end(d);
-        for (size_t s = 0; s < sheet->n_samplers; s++) {
-            put_verify_command(sheet, sheet->samplers[s], n, 2);
-        }
-        koksma__sheet_put_commands(sheet, d);
+        put_verify_commands(d, sheet->samplers, sheet->n_samplers, n, 2);
         koksma__doc_end(d);
     }
     for (size_t s = 0; s < sheet->n_samplers; s++) {
@@ -241,11 +236,10 @@ koksma_status koksma__sheet_projections(koksma__sheet *sheet, koksma__document *
                               n, v.dim);
         status = draw_pairs(samplers[0], n, v.dim, d);
         koksma__doc_paragraph(d, "Discrepancies of the points in all %d dimensions:", v.dim);
-        koksma__sheet_put_values(sheet, &v, "projections", d);
+        koksma__sheet_put_values(&v, "projections", d);
         koksma__doc_collapsed_section(d, "projection-findings", "Properties of projections of %s", samplers[0]->text);
         put_findings(&findings, "projection-findings", d);
-        put_verify_command(sheet, samplers[0], n, v.dim);
-        koksma__sheet_put_commands(sheet, d);
+        put_verify_commands(d, samplers, 1, n, v.dim);
         koksma__doc_end(d);
         koksma__doc_end(d);
     }

@@ -40,8 +40,9 @@ static koksma_status choose_size(const koksma__sheet *sheet, const char *name, i
     return KOKSMA_OK;
 }
 
-koksma_status koksma__sheet_rank(koksma__sheet *sheet)
+koksma_status koksma__sheet_rank(koksma__sheet *sheet, koksma__document *d)
 {
+    (void)d;
     const char *patterns[KOKSMA__SHEET_SAMPLERS];
     const size_t n = sheet->n_scenes * sheet->n_spp;
     koksma_status status = KOKSMA_OK;
@@ -64,71 +65,72 @@ koksma_status koksma__sheet_rank(koksma__sheet *sheet)
                                        .one_size = true};
         status = choose_size(sheet, r->scene, &options.width, &options.height);
         status = status ? status : koksma_rank_patterns(&options, &run, r->rows, &r->ranking);
-        sheet->n_rankings += !status;
     }
     return status;
 }
 
-/* Writes in words what the ranking decides about a row. */
-static const char *decision_of(const koksma_rank_row *row)
+/* The ranking, and a row of it, of a scene: number k of its n_spp x n_samplers rows. */
+typedef struct ranked {
+    const koksma__sheet_ranking *of;
+    const koksma_rank_row *row;
+    const char *sampler;
+} ranked;
+
+static ranked row_of(const koksma__sheet *sheet, size_t scene, size_t k)
 {
-    static const char *const words[] = {"undecided", "best", "equal to the first", "worse than the first"};
-    return row->state == KOKSMA_RANK_RANKED ? words[row->decision] : "not ranked";
+    const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k / sheet->n_samplers];
+    const koksma_rank_row *row = &r->rows[k % sheet->n_samplers];
+    return (ranked){r, row, sheet->samplers[row->pattern]->text};
 }
 
 static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
+    static const char *const decisions[] = {"undecided", "best", "equal to the first", "worse than the first"};
     koksma__doc_table(d, "scene-%s", sheet->scenes[scene]);
     koksma__doc_columns(d,
                         "n9m samples a pixel#samples;t sampler;i4 error;i2f behind the first#behind;t "
                         "coherent#bands;n3h position;n3h coherence;th decision;n9h images;n4h robust;n3h top share");
-    for (size_t k = 0; k < sheet->n_spp; k++) {
-        const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
-        for (size_t i = 0; i < sheet->n_samplers; i++) {
-            const koksma_rank_row *row = &r->rows[i];
-            koksma__doc_row(d, "ntiitnntnnn", (double)r->spp, sheet->samplers[row->pattern]->text,
-                            (koksma__estimate){row->mean, row->low, row->high},
-                            (koksma__estimate){row->behind, row->behind_low, row->behind_high},
-                            !row->coherence.images    ? "–"
-                            : row->coherence.coherent ? "yes"
-                                                      : "no",
-                            row->position ? (double)row->position : (double)NAN,
-                            row->coherence.images ? row->coherence.coherence : (double)NAN, decision_of(row),
-                            (double)row->trials, row->robust, row->top_share);
-        }
+    for (size_t k = 0; k < sheet->n_spp * sheet->n_samplers; k++) {
+        const ranked at = row_of(sheet, scene, k);
+        const koksma_rank_row *row = at.row;
+        koksma__doc_row(d, "ntiitnntnnn", (double)at.of->spp, at.sampler,
+                        (koksma__estimate){row->mean, row->low, row->high},
+                        (koksma__estimate){row->behind, row->behind_low, row->behind_high},
+                        !row->coherence.images    ? "–"
+                        : row->coherence.coherent ? "yes"
+                                                  : "no",
+                        row->position ? (double)row->position : (double)NAN,
+                        row->coherence.images ? row->coherence.coherence : (double)NAN,
+                        row->state == KOKSMA_RANK_RANKED ? decisions[row->decision] : "not ranked",
+                        (double)row->trials, row->robust, row->top_share);
     }
 }
 
 /* Warns if a few pixels carry most of the error in some rows of a scene's table. */
 static void warn_of_few_pixels(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
-    const koksma_rank_row *worst = NULL;
-    size_t few = 0, ranked = 0;
-    int spp = 0;
+    ranked worst = {0};
+    size_t few = 0, all = 0;
     for (size_t k = 0; k < sheet->n_spp * sheet->n_samplers; k++) {
-        const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k / sheet->n_samplers];
-        const koksma_rank_row *row = &r->rows[k % sheet->n_samplers];
-        ranked += row->state == KOKSMA_RANK_RANKED;
-        if (row->top_share >= KOKSMA_FEW_PIXELS) {
-            few++;
-            if (!worst || row->top_share > worst->top_share) {
-                worst = row;
-                spp = r->spp;
-            }
+        const ranked at = row_of(sheet, scene, k);
+        all += at.row->state == KOKSMA_RANK_RANKED;
+        few += at.row->top_share >= KOKSMA_FEW_PIXELS;
+        if (at.row->top_share >= KOKSMA_FEW_PIXELS && (!worst.row || at.row->top_share > worst.row->top_share)) {
+            worst = at;
         }
     }
-    if (worst) {
+    if (worst.row) {
         koksma__doc_warning(
             d,
             "Warning: 0.1 %% of the pixels carry most of the error in %zu of %zu rows, and decide the order there. "
             "They carry most with %d samples of %s: %.0f %% of the error; without them `%s` is %.4g instead of %.4g. "
             "A metric that weighs them less, such as `smape`, may give another order.",
-            few, ranked, spp, sheet->samplers[worst->pattern]->text, 100 * worst->top_share, sheet->metric_text,
-            worst->robust, worst->mean);
+            few, all, worst.of->spp, worst.sampler, 100 * worst.row->top_share, sheet->metric_text, worst.row->robust,
+            worst.row->mean);
     }
 }
 
-/* Draws errors against samples per pixel, if there are several numbers of samples. */
+/* Draws errors against samples per pixel. */
 static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
     char title[128];
@@ -136,22 +138,20 @@ static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document
     koksma__doc_chart(d, &(koksma__chart){title, "samples a pixel", sheet->metric.metric->title, true, true, -1});
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__doc_series(d, sheet->samplers[s]->text, NULL, KOKSMA__SERIES_LINE);
-        for (size_t k = 0; k < sheet->n_spp; k++) {
-            const koksma__sheet_ranking *r = &sheet->rankings[scene * sheet->n_spp + k];
-            for (size_t i = 0; i < sheet->n_samplers; i++) {
-                if (r->rows[i].pattern == s && r->rows[i].state == KOKSMA_RANK_RANKED) {
-                    koksma__doc_point(d, r->spp, r->rows[i].mean, r->rows[i].low, r->rows[i].high);
-                }
+        for (size_t k = 0; k < sheet->n_spp * sheet->n_samplers; k++) {
+            const ranked at = row_of(sheet, scene, k);
+            if (at.row->pattern == s && at.row->state == KOKSMA_RANK_RANKED) {
+                koksma__doc_point(d, at.of->spp, at.row->mean, at.row->low, at.row->high);
             }
         }
     }
 }
 
 /* Writes the command that gives a scene's numbers. No list of patterns can have a path with a comma. */
-static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
+static void put_command(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
     const koksma_ranking *ranking = &sheet->rankings[scene * sheet->n_spp].ranking;
-    char patterns[KOKSMA__SHEET_COMMAND] = "", word[KOKSMA__SHEET_COMMAND], name[KOKSMA__SHEET_COMMAND], spp[64] = "";
+    char patterns[KOKSMA__DOC_COMMAND] = "", word[KOKSMA__DOC_COMMAND], name[KOKSMA__DOC_COMMAND], spp[64] = "";
     for (size_t s = 0; s < sheet->n_samplers; s++) {
         koksma__text_join(patterns, sizeof patterns, ",", sheet->samplers[s]->text);
         if (strchr(sheet->samplers[s]->spec.path, ',')) {
@@ -162,23 +162,23 @@ static void put_command(koksma__sheet *sheet, size_t scene, koksma__document *d)
             return;
         }
     }
+    for (size_t k = 0; k < sheet->n_spp; k++) {
+        snprintf(word, sizeof word, "%d", sheet->spp[k]);
+        koksma__text_join(spp, sizeof spp, ",", word);
+    }
     koksma__sheet_word(patterns, word, sizeof word);
     koksma__sheet_word(sheet->scenes[scene], name, sizeof name);
-    for (size_t k = 0; k < sheet->n_spp; k++) {
-        const size_t used = strlen(spp);
-        snprintf(spp + used, sizeof spp - used, "%s%d", used ? "," : "", sheet->spp[k]);
-    }
-    koksma__sheet_command(
-        sheet, "rank %s --spp %s --size %dx%d -p %s%s%s --max-trials %zu --one-size --time-limit 1000000000", name,
+    koksma__doc_commands(d);
+    koksma__doc_command(
+        d, "koksma rank %s --spp %s --size %dx%d -p %s%s%s --max-trials %zu --one-size --time-limit 1000000000", name,
         spp, ranking->width, ranking->height, word, strcmp(sheet->metric_text, "mae") ? " --metric " : "",
         strcmp(sheet->metric_text, "mae") ? sheet->metric_text : "", sheet->max_trials);
-    koksma__sheet_put_commands(sheet, d);
 }
 
-void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
+koksma_status koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
 {
     if (!sheet->n_scenes) {
-        return;
+        return KOKSMA_OK;
     }
     koksma__doc_section(d, "scenes", "Errors in scenes");
     if (!sheet->n_spp) {
@@ -208,15 +208,14 @@ void koksma__sheet_put_rankings(koksma__sheet *sheet, koksma__document *d)
         put_table(sheet, i, d);
         warn_of_few_pixels(sheet, i, d);
         for (size_t k = 0; k < sheet->n_spp * sheet->n_samplers; k++) {
-            const koksma__sheet_ranking *r = &sheet->rankings[i * sheet->n_spp + k / sheet->n_samplers];
-            const koksma_rank_row *row = &r->rows[k % sheet->n_samplers];
-            if (row->state != KOKSMA_RANK_RANKED) {
-                koksma__doc_paragraph(d, "%s at %d samples: %s", sheet->samplers[row->pattern]->text, r->spp,
-                                      row->reason);
+            const ranked at = row_of(sheet, i, k);
+            if (at.row->state != KOKSMA_RANK_RANKED) {
+                koksma__doc_paragraph(d, "%s at %d samples: %s", at.sampler, at.of->spp, at.row->reason);
             }
         }
         put_command(sheet, i, d);
         koksma__doc_end(d);
     }
     koksma__doc_end(d);
+    return KOKSMA_OK;
 }

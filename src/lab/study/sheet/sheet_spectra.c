@@ -136,18 +136,16 @@ static void put_quality(const spectra *all, size_t n, koksma__document *d)
     }
 }
 
-static void put_commands(koksma__sheet *sheet, const spectra *all, koksma__document *d)
+static void put_commands(const spectra *all, size_t n, koksma__document *d)
 {
     static const char *const curves[] = {"quality", "rings", "pairs"};
-    char source[2 * KOKSMA_MAX_SPEC];
-    for (size_t s = 0; s < sheet->n_samplers; s++) {
-        for (size_t c = 0; c < sizeof curves / sizeof *curves; c++) {
-            koksma__sheet_source(all[s].sampler, all[s].n, 2, source, sizeof source);
-            koksma__sheet_command(sheet, "curve %s %s --trials %zu --seed %llu", curves[c], source, all[s].trials,
-                                  (unsigned long long)all[s].sampler->seed);
-        }
+    koksma__doc_commands(d);
+    for (size_t i = 0; i < 3 * n; i++) {
+        const spectra *s = &all[i / 3];
+        koksma__doc_command(d, "koksma curve %s %s --trials %zu --seed %llu", curves[i % 3],
+                            koksma__sheet_source(s->sampler, s->n, 2).text, s->trials,
+                            (unsigned long long)s->sampler->seed);
     }
-    koksma__sheet_put_commands(sheet, d);
 }
 
 static koksma_status put_section(koksma__sheet *sheet, const spectra *all, koksma__document *d)
@@ -176,7 +174,7 @@ static koksma_status put_section(koksma__sheet *sheet, const spectra *all, koksm
     koksma__doc_paragraph(d, "Effective Nyquist frequency: signals up to it alias little. Oscillation: how far the "
                              "radial mean strays from 1 beyond that frequency (Heck, Schlömer & Deussen 2013).");
     put_quality(all, sheet->n_samplers, d);
-    put_commands(sheet, all, d);
+    put_commands(all, sheet->n_samplers, d);
     koksma__doc_end(d);
     return status;
 }

@@ -53,8 +53,9 @@ static koksma_status test(koksma__sheet_bias *bias, const koksma_points *sets, s
     return status;
 }
 
-koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet)
+koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet, koksma__document *d)
 {
+    (void)d;
     const koksma__sheet_sampler *sampler = sheet->samplers[0];
     const size_t count = koksma__sheet_trials(sampler, SETS);
     sheet->bias.n = koksma__sheet_size(sheet, POINTS);
@@ -77,11 +78,10 @@ koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet)
 }
 
 /* Writes what was found, as the first paragraph of the verdict. */
-static void put_bias(koksma__sheet *sheet, koksma__document *d)
+static void put_bias(const koksma__sheet *sheet, koksma__document *d)
 {
     const koksma__sheet_bias *bias = &sheet->bias;
     const koksma__sheet_sampler *sampler = sheet->samplers[0];
-    char source[2 * KOKSMA_MAX_SPEC];
     if (bias->biased) {
         koksma__doc_paragraph(d,
                               "*Biased*: over %zu sets of %zu points the mean share of the points in a box is not "
@@ -99,10 +99,10 @@ static void put_bias(koksma__sheet *sheet, koksma__document *d)
             KOKSMA_VERIFY_SETS);
     }
     if (bias->sets) {
-        koksma__sheet_source(sampler, bias->n, 2, source, sizeof source);
-        koksma__sheet_command(sheet, "verify %s --seeds %zu --seed %llu", source, bias->sets,
-                              (unsigned long long)sampler->seed);
-        koksma__sheet_put_commands(sheet, d);
+        koksma__doc_commands(d);
+        koksma__doc_command(d, "koksma verify %s --seeds %zu --seed %llu",
+                            koksma__sheet_source(sampler, bias->n, 2).text, bias->sets,
+                            (unsigned long long)sampler->seed);
     }
 }
 
@@ -226,7 +226,7 @@ static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
     }
 }
 
-void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
+koksma_status koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
 {
     const koksma__sheet_values *v = &sheet->plane;
     const score s = score_measures(v);
@@ -240,7 +240,7 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
     if (sheet->n_samplers == 1) {
         koksma__doc_paragraph(d, "This sheet compares %s with no other sampler.", sheet->samplers[0]->text);
         koksma__doc_end(d);
-        return;
+        return KOKSMA_OK;
     }
     if (sheet->bias.biased) {
         koksma__doc_paragraph(d, "It is beaten in *");
@@ -280,4 +280,5 @@ void koksma__sheet_verdict(koksma__sheet *sheet, koksma__document *d)
         koksma__doc_say(d, " Decisions of each scene hold together with 95 %%.");
     }
     koksma__doc_end(d);
+    return KOKSMA_OK;
 }
