@@ -46,9 +46,12 @@ typedef struct koksma__atlas {
    NULL: there is none. */
 const char *koksma__atlas_text(const char *name, size_t *size);
 
-/* Writes text to a page: with a length, or to its end. */
-void koksma__atlas_put_text(FILE *f, const char *text, size_t length);
-void koksma__atlas_put(FILE *f, const char *text);
+/* Writes HTML to a page, with the special characters of its arguments escaped. The conversions are %s, %.*s and %zu. */
+void koksma__atlas_print(FILE *f, const char *format, ...) KOKSMA_PRINTF(2, 3);
+
+/* Finds the list `key` of a node and its length, 0 if there is none. Errors: MALFORMED (no list, or longer than `most`). */
+koksma_status koksma__atlas_list(const koksma__json_node *node, const char *key, size_t most, koksma__json_node *list,
+                                 size_t *n);
 
 /* Writes a page up to its content. */
 void koksma__atlas_put_head(FILE *f, const char *title);

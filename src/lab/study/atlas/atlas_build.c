@@ -205,11 +205,7 @@ static koksma_status add_pages(koksma__atlas *a, const char *key, bool numbered)
     const koksma__json_node root = koksma__json_root(a->document);
     koksma__json_node list;
     size_t n;
-    if (!koksma__json_has(&root, key)) {
-        return KOKSMA_OK;
-    }
-    KOKSMA__TRY(koksma__json_member(&root, key, &list));
-    KOKSMA__TRY(koksma__json_length(&list, MAX_PAGES, &n));
+    KOKSMA__TRY(koksma__atlas_list(&root, key, MAX_PAGES, &list, &n));
     for (size_t i = 0; i < n; i++) {
         KOKSMA__TRY(add_page(a, &list, i, numbered));
     }

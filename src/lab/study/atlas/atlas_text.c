@@ -6,6 +6,8 @@
 #include "study/atlas/atlas.h"
 
 #include <ctype.h>
+#include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,25 +30,53 @@ const char *koksma__atlas_text(const char *name, size_t *size)
     return NULL;
 }
 
-void koksma__atlas_put_text(FILE *f, const char *text, size_t length)
+static void put_text(FILE *f, const char *text, size_t length)
 {
-    for (size_t i = 0; i < length; i++) {
+    for (size_t i = 0; i < length && text[i]; i++) {
         const char c = text[i];
         const char *name = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : NULL;
         name ? fputs(name, f) : putc(c, f);
     }
 }
 
-void koksma__atlas_put(FILE *f, const char *text)
+void koksma__atlas_print(FILE *f, const char *format, ...)
 {
-    koksma__atlas_put_text(f, text, strlen(text));
+    va_list arguments;
+    va_start(arguments, format);
+    for (const char *at = format; *at;) {
+        const size_t plain = strcspn(at, "%");
+        fwrite(at, 1, plain, f);
+        at += plain;
+        if (!strncmp(at, "%zu", 3)) {
+            fprintf(f, "%zu", va_arg(arguments, size_t));
+            at += 3;
+        } else if (*at) { /* %s or %.*s */
+            const size_t length = at[1] == '.' ? (size_t)va_arg(arguments, int) : SIZE_MAX;
+            put_text(f, va_arg(arguments, const char *), length);
+            at += at[1] == '.' ? 4 : 2;
+        }
+    }
+    va_end(arguments);
+}
+
+koksma_status koksma__atlas_list(const koksma__json_node *node, const char *key, size_t most, koksma__json_node *list,
+                                 size_t *n)
+{
+    *n = 0;
+    if (!koksma__json_has(node, key)) {
+        return KOKSMA_OK;
+    }
+    KOKSMA__TRY(koksma__json_member(node, key, list));
+    return koksma__json_length(list, most, n);
 }
 
 void koksma__atlas_put_head(FILE *f, const char *title)
 {
-    fputs("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>", f);
-    koksma__atlas_put(f, title);
-    fputs("</title>\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n", f);
+    koksma__atlas_print(
+        f,
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>%s</title>\n<meta "
+        "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
+        title);
     koksma__page_style(f);
     fputs("<style>@media (max-width: 40rem) { .many .pm { white-space: normal; } .many :is(td, th) { padding: .2rem "
           ".1rem; font-size: .73rem; } "
@@ -76,7 +106,7 @@ koksma_status koksma__atlas_begin_link(FILE *out, const char *folder, const char
     const size_t length = strlen(name);
     *is_link = !slash && !strchr(name, ' ') && length > 5 && !strcmp(name + length - 5, ".html");
     if (*is_link) {
-        fprintf(out, "<a href=\"%s\">", name);
+        koksma__atlas_print(out, "<a href=\"%s\">", name);
     }
     if (ending && !ending[3]) {
         *ending = '\0';
@@ -88,7 +118,7 @@ koksma_status koksma__atlas_begin_link(FILE *out, const char *folder, const char
     }
     *is_link = true;
     snprintf(file, sizeof file, "docs/%s.html", name);
-    fprintf(out, "<a href=\"%s\">", file);
+    koksma__atlas_print(out, "<a href=\"%s\">", file);
     FILE *f = open_memstream(&text, &size);
     KOKSMA__REQUIRE_MEMORY(f, source_size);
     koksma__atlas_put_head(f, name);
@@ -96,7 +126,7 @@ koksma_status koksma__atlas_begin_link(FILE *out, const char *folder, const char
     for (size_t i = 0; i < source_size; i++) { /* lines of a paragraph are joined */
         const bool inside =
             source[i] == '\n' && !strchr("\n|", i ? source[i - 1] : '\n') && isalnum((unsigned char)source[i + 1]);
-        koksma__atlas_put_text(f, inside ? " " : source + i, 1);
+        put_text(f, inside ? " " : source + i, 1);
     }
     fputs("</pre></div>\n</main>\n</body>\n</html>\n", f);
     return koksma__atlas_close(f, folder, file, &text, KOKSMA_OK);
