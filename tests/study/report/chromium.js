@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// chromium.js REPORT [SCREENSHOTS]: opens a report in headless Chromium: no console error, every picture loads, no network,
+// chromium.js REPORT [SCREENSHOTS]: opens a report or a datasheet in headless Chromium: no console error, every picture loads, no network,
 // the comparer works by keyboard, all pictures have texts, text has contrast, in light and dark; answers, contents, search,
-// tables and charts work by the keyboard alone; printed, nothing is folded. Exit code 77: skipped.
+// tables, charts and commands work by the keyboard alone; printed, nothing is folded. No table of a datasheet scrolls sideways. Exit code 77: skipped.
 "use strict";
 const fs = require("fs");
 const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(p => fs.existsSync(p));
@@ -16,8 +16,8 @@ const problems = [];
 let longTables = 0;
 const check = (good, text) => { if (!good) problems.push(text); };
 
-// What report.json has of each kind.
-const data = JSON.parse(fs.readFileSync(report.replace(/html$/, "json"), "utf8"));
+// What the data have of each kind.
+const data = JSON.parse(/id="data">\n(.*?)<\/script>/s.exec(fs.readFileSync(report, "utf8"))[1]);
 const blocksOf = content => content.flatMap(b => [b, ...blocksOf(b.content ?? [])]);
 const all = blocksOf(data.content), of = kind => all.filter(b => b.kind === kind), sum = list => list.reduce((a, b) => a + b, 0);
 const lineLabels = b => [...new Set(b.series.filter(s => s.style !== "theory" && s.points.length).map(s => s.label))];
@@ -28,8 +28,8 @@ const best = b => lineLabels(b).sort((p, q) => atEnd(b, q)[0] - atEnd(b, p)[0] |
 const opening = b => !limited(b) ? lineLabels(b) : lineLabels(b).length > 8 && / against N$/.test(b.title) ? best(b).slice(0, 8) : lineLabels(b).slice(0, 8);
 const shownSeries = b => b.series.filter(s => s.style !== "theory" && opening(b).includes(s.label));
 const expected = {
-  headings: of("section").filter(b => !b.collapsed).length, details: of("section").filter(b => b.collapsed).length,
-  paragraphs: of("paragraph").length, tables: of("table").length,
+  headings: of("section").filter(b => !b.collapsed).length, details: of("section").filter(b => b.collapsed).length + of("commands").length,
+  paragraphs: of("paragraph").length + of("commands").length, tables: of("table").length,
   rows: sum(of("table").map(b => b.rows.length)), charts: of("chart").length, lines: sum(of("list").map(b => b.items.length)),
   marks: sum(of("chart").flatMap(b => shownSeries(b).map(s =>
     s.points.filter(([x, y]) => x !== null && y !== null && (!b.x.log || x > 0) && (!b.y.log || y > 0)).length))),
@@ -61,6 +61,22 @@ const contrasts = () => {
   return [...bad];
 };
 
+// With all sections open: words of tables that are broken within, letters or digits on two lines; and what scrolls sideways.
+const cramped = scrolls => {
+  document.querySelectorAll("details").forEach(d => { d.open = true; });
+  const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), broken = new Set();
+  while (texts.nextNode()) {
+    const text = texts.currentNode, range = document.createRange();
+    if (!text.parentElement.closest("td, th")) continue;
+    for (const { 0: word, index } of text.data.matchAll(/[\p{L}\p{N}]+/gu)) {
+      range.setStart(text, index), range.setEnd(text, index + word.length);
+      if (new Set([...range.getClientRects()].map(box => Math.round(box.top))).size > 1) broken.add(word);
+    }
+  }
+  return [...broken, ...[document.documentElement, ...document.querySelectorAll(scrolls)].filter(e => e.scrollWidth > e.clientWidth + 1)
+    .map(e => `${e.getAttribute("aria-label") ?? "the page"} ${e.scrollWidth} > ${e.clientWidth}`)];
+};
+
 // Presses Tab until the focus is on what `test` finds in the page.
 async function tabTo(page, selector, most = 400) {
   for (let i = 0; i < most; i++) {
@@ -76,7 +92,7 @@ const has = (page, selector) => page.evaluate(s => Boolean(document.querySelecto
 async function byKeyboard(page) {
   const start = () => page.evaluate(() => { document.activeElement.blur(); document.querySelector("h1").tabIndex = -1; document.querySelector("h1").focus(); });
   const answers = all.filter(b => b.answer).length, shown = await page.evaluate(() => document.querySelectorAll("#verdict dd > .mark").length);
-  check(answers ? shown > 0 && shown <= answers : !await has(page, "#verdict"), `${shown} answers at the top of ${answers}`);
+  check(answers ? shown > 0 && shown <= answers : !await has(page, "section#verdict"), `${shown} answers at the top of ${answers}`);
   if (answers && await tabTo(page, "#verdict dt a")) {
     await page.keyboard.press("Enter");
     check(await page.evaluate(() => Boolean(document.getElementById(decodeURIComponent(location.hash.slice(1)))?.matches("#evidence *"))), "a question leads nowhere");
@@ -115,6 +131,15 @@ async function byKeyboard(page) {
     await tabTo(page, ".tools input");
     await page.keyboard.type("no such pattern");
     await page.keyboard.press("Escape"); // empties a search field
+    await start();
+  }
+  if (of("commands").length && await tabTo(page, ".commands summary")) {
+    const focused = () => page.evaluate(() => document.activeElement.textContent);
+    await page.keyboard.press("Enter");
+    await page.keyboard.press("Tab");
+    check((await focused()).startsWith("koksma "), "Tab does not lead to the commands");
+    await page.keyboard.press("Tab");
+    check(await focused() === "copy", "Tab does not lead to the button that copies");
     await start();
   }
   const drawnChart = of("chart").findIndex(b => shownSeries(b).some(s => s.points.length > 1));
@@ -246,6 +271,13 @@ async function byKeyboard(page) {
     }
     check(small === 0, `${small} charts are not drawn again for a narrow window`);
     if (screenshots) await page.screenshot({ path: `${screenshots}/${colorScheme}-400.png`, fullPage: true });
+    const sheet = data.format === "koksma-datasheet", folds = await page.evaluate(() => [...document.querySelectorAll("details")].map(d => d.open));
+    for (const width of sheet ? [400, 1280] : []) {
+      await page.setViewportSize({ width, height: 900 });
+      const found = await page.evaluate(cramped, ".scroll");
+      check(!found.length, `at ${width} pixels broken or too wide: ${found.join("; ")}`);
+    }
+    await page.evaluate(open => document.querySelectorAll("details").forEach((d, i) => { d.open = open[i]; }), folds);
     await page.setViewportSize({ width: 1280, height: 900 });
     // The charts of the whole width are drawn again some frames later: wait until the widest has more than a narrow window's width.
     const drawn = () => { const charts = [...document.querySelectorAll(".chart")].map(c => c.viewBox.baseVal.width); return !charts.length || Math.max(...charts) > 400; };
@@ -283,7 +315,7 @@ async function byKeyboard(page) {
   }
   const plain = await (await browser.newContext({ javaScriptEnabled: false })).newPage();
   await plain.goto("file://" + fs.realpathSync(report));
-  check(/needs JavaScript.*report\.json/.test(await plain.locator("body").innerText()), "nothing is said without JavaScript");
+  check(/needs JavaScript.*in this file/.test(await plain.locator("body").innerText()), "nothing is said without JavaScript");
   await browser.close();
   problems.forEach(p => console.log(p));
   console.log(`${longTables / 2} long tables, ${problems.length} problems`);

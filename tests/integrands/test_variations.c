@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Koksma's inequality over all integrands of the line and the plane: their integrals, ranges and variations by definition,
-   then the theorem. */
+/* What bounds of errors need of integrands of the line and the plane: integrals, ranges, variations, by definition. */
+#include <math.h>
+
 #include "integrands/integrands.h"
-#include "sets.h"
+#include "test.h"
 
 /* Every integrand that depends on all of one or two coordinates. */
 typedef struct function {
@@ -109,55 +110,6 @@ TEST_CASE(integrals_and_ranges_hold)
                     "%s: integral %.10g, on a grid %.10g; range %g of %g", f->name, f->value, sum, high - low,
                     f->range);
     }
-}
-
-static void check_inequality(const koksma_points *points, const char *pattern, double *closest)
-{
-    const double star = test_measure("star", points).value;
-    for (size_t i = 0; i < n_functions; i++) {
-        const function *f = &functions[i];
-        double sum = 0;
-        for (size_t k = 0; k < points->n && f->dim == points->dim; k++) {
-            sum += at(f, points->xs + k * (size_t)points->dim) / (double)points->n;
-        }
-        const double error = fabs(sum - f->value), bound = f->variation * star;
-        assert_that(f->dim != points->dim || isnan(bound) || error <= bound + 1e-13 * fmax(1, fabs(f->value)),
-                    "%s over %zu points of %s: error %.10g, V(f) D* %.10g", f->name, points->n, pattern, error,
-                    bound);
-        if (f->dim == points->dim && isfinite(bound)) {
-            *closest = fmax(*closest, error / bound);
-        }
-    }
-}
-
-/* Every function over every pattern that takes the number and the dimension, and over sets with ties and sides. */
-TEST_CASE(the_theorem_holds)
-{
-    double closest[3] = {0};
-    size_t sets = 0;
-    for (size_t i = 0; koksma_pattern_at(i); i++) {
-        const koksma_pattern *p = koksma_pattern_at(i);
-        for (int dim = 1; dim <= 2; dim++) {
-            for (size_t n = 1; n <= 256 && !p->operand; n *= 4) {
-                koksma_spec spec;
-                koksma_points points;
-                assert_ok(koksma_pattern_spec(p->name, &spec));
-                assert_ok(koksma_points_init(&points, n, dim));
-                if (dim >= p->min_dim && dim <= p->max_dim && !koksma_generate(&spec, n, NULL, &points)) {
-                    check_inequality(&points, p->name, &closest[dim]);
-                    sets++;
-                }
-                koksma_points_fini(&points);
-            }
-        }
-    }
-    for (int s = 0; s < 40 * SETS_KINDS; s++) {
-        koksma_points points = sets_points(1 + (size_t)s % 17, 1 + s % 2, s % SETS_KINDS, (uint64_t)s);
-        check_inequality(&points, "a small set", &closest[points.dim]);
-        koksma_points_fini(&points);
-    }
-    assert_true(sets > 150);
-    assert_true(closest[1] > 0.9 && closest[2] > 0.5); /* sharp enough that a smaller V would fail */
 }
 
 TEST_GROUP(open_functions, close_functions)
