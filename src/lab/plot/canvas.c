@@ -48,11 +48,6 @@ koksma_status koksma__canvas_open(koksma_plot_format format, double width, doubl
     return status;
 }
 
-koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size)
-{
-    return canvas->draw->close(canvas, bytes, size);
-}
-
 /* ---- Shapes ------------------------------------------------------------------------------------------- */
 
 void koksma__canvas_line(koksma__canvas *canvas, double x0, double y0, double x1, double y1, koksma__style style)

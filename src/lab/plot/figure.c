@@ -131,9 +131,9 @@ static koksma_status draw(const layout *a, double height, koksma_plot_format for
         y += a->lines[i].texts + a->lines[i].flexible;
     }
     if (!status) {
-        return koksma__canvas_close(canvas, bytes, n);
+        return canvas->draw->close(canvas, bytes, n);
     }
-    koksma__canvas_close(canvas, NULL, NULL);
+    canvas->draw->close(canvas, NULL, NULL);
     *bytes = NULL; /* the caller may free it */
     *n = 0;
     return status;

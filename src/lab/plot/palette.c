@@ -3,9 +3,7 @@
  * The colours of plots. The style number of a curve is colour + KOKSMA__COLOURS * dash. palette.def gives each pattern
  * the colour of its family. koksma_plot_colours gives up to KOKSMA__COLOURS curves of a picture different colours:
  * the first curve of a family gets the family's colour, and each other curve the next colour that no curve has yet;
- * if there are more curves, they differ in dashes. koksma__take_curve_number, for reports, gives all patterns of a
- * family the family's colour with different dashes. In both, a curve that belongs to no pattern gets the first free
- * number.
+ * if there are more curves, they differ in dashes. A curve that belongs to no pattern gets the first free number.
  */
 #include "plot/plot.h"
 
@@ -67,18 +65,6 @@ size_t koksma__colour_of(const char *spec)
         }
     }
     return KOKSMA__COLOURS;
-}
-
-size_t koksma__take_curve_number(const char *spec, bool *taken)
-{
-    const size_t colour = koksma__colour_of(spec), step = colour < KOKSMA__COLOURS ? KOKSMA__COLOURS : 1;
-    for (size_t number = colour % KOKSMA__COLOURS; number < KOKSMA__CURVE_STYLES; number += step) {
-        if (!taken[number]) {
-            taken[number] = true;
-            return number;
-        }
-    }
-    return KOKSMA__CURVE_STYLES;
 }
 
 /* Takes the first free number, trying for each dash in turn the colours from `colour` on. Returns

@@ -56,7 +56,8 @@ typedef struct koksma__canvas_functions {
     koksma_status (*pixels)(koksma__canvas *canvas, koksma__box box, int columns, int rows, const unsigned char *rgb);
     void (*text)(koksma__canvas *canvas, double x, double y, double height, double anchor, const char *text,
                  koksma__colour colour);
-    /* bytes: NULL drops the picture. */
+    /* Returns the finished picture, which the caller frees; with bytes = NULL drops it. Releases the canvas, also if it
+       fails and returns no picture. */
     koksma_status (*close)(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
     const char *(*library)(void);
 } koksma__canvas_functions;
@@ -97,10 +98,6 @@ double koksma__line_height(double height);
 /* The height of the lines that koksma__canvas_lines writes. */
 double koksma__lines_height(const char *text, double width, double height);
 
-/* Returns the finished picture, which the caller frees; with bytes = NULL drops it. Releases the canvas, also if it
-   fails and returns no picture. */
-koksma_status koksma__canvas_close(koksma__canvas *canvas, unsigned char **bytes, size_t *size);
-
 /* ---- Colours and dashes, for light and for dark paper ---------------------------------------------------------- */
 
 typedef struct koksma__theme {
@@ -116,11 +113,6 @@ enum { KOKSMA__COLOURS = 8, KOKSMA__CURVE_STYLES = KOKSMA__COLOURS * KOKSMA__DAS
 /* Returns the colour of the family of the pattern whose spec this is, or KOKSMA__COLOURS if the text names no
    pattern. */
 size_t koksma__colour_of(const char *spec);
-
-/* Chooses the style number, colour + KOKSMA__COLOURS * dash, of a curve in one picture, and marks it in `taken`,
-   which has KOKSMA__CURVE_STYLES flags. The spec of a pattern gets the colour of its family with the first free dash;
-   a text that names no pattern gets the first free number. Returns KOKSMA__CURVE_STYLES if no number is free. */
-size_t koksma__take_curve_number(const char *spec, bool *taken);
 
 /* The style of curve `number` (koksma_curve): successive numbers vary the colour first, then the dash. */
 koksma__style koksma__curve_style(const koksma__theme *theme, size_t number, double thickness);

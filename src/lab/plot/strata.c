@@ -136,5 +136,5 @@ koksma_status koksma_plot_strata(const koksma_strata_panel *panels, size_t n, do
         add_panel(&q, &panels[p]);
         q.x += whole;
     }
-    return status ? status : koksma__canvas_close(q.canvas, bytes, n_bytes);
+    return status ? status : q.canvas->draw->close(q.canvas, bytes, n_bytes);
 }

@@ -29,7 +29,6 @@ typedef struct svg {
     bool failed;
 } svg;
 
-/* Appends bytes. */
 static void put_bytes(svg *s, const char *bytes, size_t size)
 {
     s->failed = s->failed || koksma__reserve(&s->text, &s->capacity, s->size + size, 1);

@@ -64,15 +64,12 @@ PALETTE = [re.findall(r"[\w-]+", names) for names in re.findall(r"^COLOUR\(\w+, 
 
 
 def check_colours(name, report):
-    """A pattern has its colour of the palette in every chart, and no two series of a chart look alike."""
+    """A pattern has its colour of the palette in every chart."""
     for chart in (b for b in blocks(report["content"]) if b["kind"] == "chart"):
-        series = [s for s in chart["series"] if s["style"] in ("line", "marks")]
-        for s in series:
+        for s in (s for s in chart["series"] if s["style"] in ("line", "marks")):
             wanted = [i for i, names in enumerate(PALETTE) if re.split("[:@ ]", s["label"])[0] in names]
             if wanted and s["colour"] != wanted[0]:
                 complain(f"{name}: {chart['title']}: {s['label']} has the colour {s['colour']}, in plots {wanted[0]}")
-        if len({(s["colour"], s["dash"]) for s in series}) < len(series):
-            complain(f"{name}: {chart['title']}: two series look alike")
 
 
 def check_numbers(name, report):

@@ -31,7 +31,6 @@ static void test(judged *j, bool passes)
     j->passed += passes;
 }
 
-/* The table of the conclusion's plan with this id. */
 static const koksma__table *table_of(const judged *j, const char *id)
 {
     return koksma__plan_table_of(&j->r->study->plan, j->c->part, id);
@@ -617,10 +616,10 @@ static void conclude(koksma__report *r, koksma__document *d, const koksma__concl
                                            [KOKSMA__ANSWER_FAILS] = "Does not hold"};
     judged j = {.r = r, .c = c};
     functions[c->kind - koksma__conclusion_kinds](&j);
-    const koksma__answer_kind answer = j.open || !j.tests    ? KOKSMA__ANSWER_UNDECIDED
-                                       : j.passed == j.tests ? KOKSMA__ANSWER_HOLDS
-                                       : j.passed            ? KOKSMA__ANSWER_PARTLY
-                                                             : KOKSMA__ANSWER_FAILS;
+    const koksma__words_kind answer = j.open || !j.tests    ? KOKSMA__ANSWER_UNDECIDED
+                                      : j.passed == j.tests ? KOKSMA__ANSWER_HOLDS
+                                      : j.passed            ? KOKSMA__ANSWER_PARTLY
+                                                            : KOKSMA__ANSWER_FAILS;
     koksma__doc_answer(d, answer, "*%s%s%s:* %s ",
                        answer               ? verdicts[answer]
                        : j.other && !j.open ? "Not decided, as our rows are by another procedure"

@@ -23,15 +23,6 @@
 #include "core/status.h"
 #include "study/report/page_text.h"
 
-/* Calls say() with the arguments that follow `format`. */
-#define SAY(d, format)                                                                                               \
-    do {                                                                                                             \
-        va_list arguments;                                                                                           \
-        va_start(arguments, format);                                                                                 \
-        say(d, format, &arguments);                                                                                  \
-        va_end(arguments);                                                                                           \
-    } while (0)
-
 void koksma__text_join(char *text, size_t size, const char *between, const char *more)
 {
     const size_t used = strlen(text);
@@ -148,8 +139,10 @@ static const char *say_argument(koksma__document *d, const char *at, va_list *ar
     return type + 1;
 }
 
-static void say(koksma__document *d, const char *format, va_list *arguments)
+void koksma__doc_say(koksma__document *d, const char *format, ...)
 {
+    va_list arguments;
+    va_start(arguments, format);
     for (const char *at = format; *at;) {
         char plain[128];
         const size_t run = strcspn(at, "%`*_^");
@@ -169,18 +162,14 @@ static void say(koksma__document *d, const char *format, va_list *arguments)
             add_words(d, "%");
             at += 2;
         } else if (*at == '%') {
-            at = say_argument(d, at + 1, arguments);
+            at = say_argument(d, at + 1, &arguments);
         } else {
             end_run(d);
             d->style = d->style == *at ? 0 : *at;
             at++;
         }
     }
-}
-
-void koksma__doc_say(koksma__document *d, const char *format, ...)
-{
-    SAY(d, format);
+    va_end(arguments);
 }
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------ */
@@ -195,14 +184,23 @@ static void close_to(koksma__document *d, int depth)
     }
 }
 
-/* Ends the open block. */
+/* Begins a member of the open block that is a list. */
+static void begin_member(koksma__document *d, const char *key)
+{
+    close_to(d, d->level + 1);
+    koksma__json_begin_array(&d->json, key);
+}
+
+/* Ends the open block, or the heading of a section, whose content begins. */
 static void end_block(koksma__document *d)
 {
     if (d->in_columns) { /* a table without rows */
-        close_to(d, d->level + 1);
-        koksma__json_begin_array(&d->json, "rows");
-        d->in_columns = false;
+        begin_member(d, "rows");
+    } else if (d->in_heading) {
+        begin_member(d, "content");
+        d->level = d->json.depth;
     }
+    d->in_columns = d->in_heading = false;
     close_to(d, d->level);
 }
 
@@ -214,13 +212,6 @@ static void begin_block(koksma__document *d, const char *kind, const char *id)
     koksma__json_begin_object(&d->json, NULL);
     koksma__json_write_text(&d->json, "kind", kind);
     put_text(d, "id", id);
-}
-
-/* Begins a member of the open block that is a list. */
-static void begin_member(koksma__document *d, const char *key)
-{
-    close_to(d, d->level + 1);
-    koksma__json_begin_array(&d->json, key);
 }
 
 /* Begins an item of the list that is a member of the open block. */
@@ -286,31 +277,12 @@ void koksma__doc_close(koksma__document *d)
     }
 }
 
-static void begin_section(koksma__document *d, const char *id, bool collapsed)
+void koksma__doc_begin_section(koksma__document *d, const char *id, bool collapsed)
 {
     begin_block(d, "section", id);
     put_flag(d, "collapsed", collapsed);
     koksma__json_begin_array(&d->json, "heading");
-}
-
-static void begin_content(koksma__document *d)
-{
-    begin_member(d, "content");
-    d->level = d->json.depth;
-}
-
-void koksma__doc_section(koksma__document *d, const char *id, const char *format, ...)
-{
-    begin_section(d, id, false);
-    SAY(d, format);
-    begin_content(d);
-}
-
-void koksma__doc_collapsed_section(koksma__document *d, const char *id, const char *format, ...)
-{
-    begin_section(d, id, true);
-    SAY(d, format);
-    begin_content(d);
+    d->in_heading = true;
 }
 
 void koksma__doc_end(koksma__document *d)
@@ -320,37 +292,23 @@ void koksma__doc_end(koksma__document *d)
     close_to(d, d->level);
 }
 
-/* Begins a paragraph, after its member `answer` unless that is NULL. */
-static void begin_paragraph(koksma__document *d, const char *answer)
+void koksma__doc_begin(koksma__document *d, koksma__words_kind kind)
 {
-    begin_block(d, "paragraph", NULL);
-    put_text(d, "answer", answer);
-    koksma__json_begin_array(&d->json, "text");
-}
-
-void koksma__doc_paragraph(koksma__document *d, const char *format, ...)
-{
-    begin_paragraph(d, NULL);
-    SAY(d, format);
-}
-
-void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const char *format, ...)
-{
-    static const char *const names[] = {[KOKSMA__ANSWER_UNDECIDED] = "undecided",
-                                        [KOKSMA__ANSWER_DECIDED] = "decided",
-                                        [KOKSMA__ANSWER_HOLDS] = "holds",
-                                        [KOKSMA__ANSWER_PARTLY] = "partly",
-                                        [KOKSMA__ANSWER_FAILS] = "fails"};
-    begin_paragraph(d, names[kind]);
-    SAY(d, format);
-}
-
-void koksma__doc_warning(koksma__document *d, const char *format, ...)
-{
-    begin_block(d, "paragraph", NULL);
-    koksma__json_write_flag(&d->json, "warning", true);
-    koksma__json_begin_array(&d->json, "text");
-    SAY(d, format);
+    static const char *const answers[] = {[KOKSMA__ANSWER_UNDECIDED] = "undecided",
+                                          [KOKSMA__ANSWER_DECIDED] = "decided",
+                                          [KOKSMA__ANSWER_HOLDS] = "holds",
+                                          [KOKSMA__ANSWER_PARTLY] = "partly",
+                                          [KOKSMA__ANSWER_FAILS] = "fails"};
+    if (kind == KOKSMA__ITEM) {
+        begin_item(d, false);
+    } else if (kind == KOKSMA__CAPTION) {
+        begin_member(d, "caption");
+    } else {
+        begin_block(d, "paragraph", NULL);
+        put_text(d, "answer", kind <= KOKSMA__ANSWER_FAILS ? answers[kind] : NULL);
+        put_flag(d, "warning", kind == KOKSMA__WARNING);
+        koksma__json_begin_array(&d->json, "text");
+    }
 }
 
 void koksma__doc_list(koksma__document *d, const char *id, bool numbered)
@@ -358,12 +316,6 @@ void koksma__doc_list(koksma__document *d, const char *id, bool numbered)
     begin_block(d, "list", id);
     koksma__json_write_flag(&d->json, "numbered", numbered);
     koksma__json_begin_array(&d->json, "items");
-}
-
-void koksma__doc_item(koksma__document *d, const char *format, ...)
-{
-    begin_item(d, false);
-    SAY(d, format);
 }
 
 void koksma__doc_commands(koksma__document *d)
@@ -457,48 +409,32 @@ void koksma__doc_columns(koksma__document *d, const char *columns, ...)
     va_end(arguments);
 }
 
-static void put_cells(koksma__document *d, const char *types, va_list *arguments)
+void koksma__doc_begin_row(koksma__document *d)
 {
-    for (; *types; types++) {
-        switch (*types) {
-        case 't':
-            koksma__json_write_text(&d->json, NULL, va_arg(*arguments, const char *));
-            break;
-        case 'n':
-            put_number(d, NULL, va_arg(*arguments, double));
-            break;
-        case 'z':
-            put_number(d, NULL, (double)va_arg(*arguments, size_t));
-            break;
-        case 'd':
-            put_number(d, NULL, (double)va_arg(*arguments, long long));
-            break;
-        default: {
-            const koksma__estimate e = va_arg(*arguments, koksma__estimate);
-            put_numbers(d, NULL, (const double[]){e.value, e.low, e.high}, 3);
-        }
-        }
-    }
-}
-
-void koksma__doc_row(koksma__document *d, const char *types, ...)
-{
-    va_list arguments;
     if (d->in_columns) {
         begin_member(d, "rows");
         d->in_columns = false;
     }
     begin_item(d, false);
-    va_start(arguments, types);
-    put_cells(d, types, &arguments);
-    va_end(arguments);
 }
 
 void koksma__doc_cells(koksma__document *d, const char *types, ...)
 {
     va_list arguments;
     va_start(arguments, types);
-    put_cells(d, types, &arguments);
+    for (; *types; types++) {
+        if (*types == 't') {
+            koksma__json_write_text(&d->json, NULL, va_arg(arguments, const char *));
+        } else if (*types == 'i') {
+            const koksma__estimate e = va_arg(arguments, koksma__estimate);
+            put_numbers(d, NULL, (const double[]){e.value, e.low, e.high}, 3);
+        } else {
+            put_number(d, NULL,
+                       *types == 'n'   ? va_arg(arguments, double)
+                       : *types == 'z' ? (double)va_arg(arguments, size_t)
+                                       : (double)va_arg(arguments, long long));
+        }
+    }
     va_end(arguments);
 }
 
@@ -507,7 +443,6 @@ koksma__cell_data koksma__cell_of(double value)
     return (koksma__cell_data){.value = value, .low = NAN, .high = NAN, .sd = NAN, .z = NAN, .change = NAN};
 }
 
-/* Writes a member unless its value is NaN. */
 static void put_known(koksma__document *d, const char *key, double value)
 {
     if (!isnan(value)) {
@@ -565,16 +500,13 @@ void koksma__doc_series(koksma__document *d, const char *label, const char *patt
     koksma__json_write_text(&d->json, "label", label);
     koksma__json_write_text(&d->json, "style", styles[style]);
     if (style == KOKSMA__SERIES_LINE || style == KOKSMA__SERIES_MARKS) {
-        size_t number = koksma__take_curve_number(of, d->curves);
-        /* all dashes of the pattern's colour are in use: dashes repeat, and the page gives these lines other marks */
-        if (number == KOKSMA__CURVE_STYLES) {
-            for (size_t i = koksma__colour_of(of) % KOKSMA__COLOURS; i < number; i += KOKSMA__COLOURS) {
-                d->curves[i] = false;
-            }
-            number = koksma__take_curve_number(of, d->curves);
+        size_t colour = koksma__colour_of(of), least = 0;
+        for (size_t c = 1; c < KOKSMA__COLOURS; c++) {
+            least = d->curves[c] < d->curves[least] ? c : least;
         }
-        koksma__json_write_whole(&d->json, "colour", (long long)(number % KOKSMA__COLOURS));
-        koksma__json_write_whole(&d->json, "dash", (long long)(number / KOKSMA__COLOURS % KOKSMA__DASH_GUIDE));
+        colour = colour < KOKSMA__COLOURS ? colour : least;
+        d->curves[colour]++;
+        koksma__json_write_whole(&d->json, "colour", (long long)colour);
     }
     koksma__json_begin_array(&d->json, "points");
 }
@@ -641,12 +573,6 @@ void koksma__doc_line(koksma__document *d, double x0, double y0, double x1, doub
 void koksma__doc_dot(koksma__document *d, double x, double y)
 {
     put_numbers(d, NULL, (const double[]){x, y}, 2);
-}
-
-void koksma__doc_caption(koksma__document *d, const char *format, ...)
-{
-    begin_member(d, "caption");
-    SAY(d, format);
 }
 
 void koksma__doc_pictures(koksma__document *d, const char *scene, int width, int height)
@@ -741,7 +667,6 @@ char *koksma__page_text(const char *json)
     return text;
 }
 
-/* Writes three texts as one file. */
 static koksma_status put_file(const char *folder, const char *name, const char *head, const char *json,
                               const char *foot)
 {

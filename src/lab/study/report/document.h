@@ -21,7 +21,8 @@ typedef struct koksma__document {
     char style;      /* style of the next words: '`' code, '*' strong, '_' emphasised, '^' superscript; 0: none */
     bool in_text;    /* whether a run of words is open */
     bool in_columns; /* whether a table is open that has no row yet */
-    bool curves[KOKSMA__CURVE_STYLES]; /* which style numbers the series of the open chart use */
+    bool in_heading; /* whether a section is open that has no content yet */
+    size_t curves[KOKSMA__COLOURS]; /* how many series of the open chart have each colour */
 } koksma__document;
 
 /* Appends the content of `part`, and empties `part`. */
@@ -60,28 +61,37 @@ void koksma__doc_say_words(koksma__document *d, koksma__document *words);
 
 /* Begins a section with a heading, and its content; sections nest. id = NULL: no id; if ids repeat, the page makes them
    unique. A collapsed section is hidden until its heading is clicked. koksma__doc_end ends the innermost section. */
-void koksma__doc_section(koksma__document *d, const char *id, const char *format, ...) KOKSMA_PRINTF(3, 4);
-void koksma__doc_collapsed_section(koksma__document *d, const char *id, const char *format, ...) KOKSMA_PRINTF(3, 4);
+void koksma__doc_begin_section(koksma__document *d, const char *id, bool collapsed);
 void koksma__doc_end(koksma__document *d);
+#define koksma__doc_section(d, id, ...) (koksma__doc_begin_section(d, id, false), koksma__doc_say(d, __VA_ARGS__))
+#define koksma__doc_collapsed_section(d, id, ...)                                                                    \
+    (koksma__doc_begin_section(d, id, true), koksma__doc_say(d, __VA_ARGS__))
 
-/* Each begins a paragraph with its first words: one that warns of doubtful or missing numbers, or one that answers the
-   question of its section, which the page also shows in its overview. kind: whether the data decide the question (true or
-   false), or what they say of a conclusion. */
-typedef enum koksma__answer_kind {
+/* Begins what words are written into: a paragraph that answers the question of its section, which the page also shows
+   in its overview; any other paragraph, or one that warns of doubtful or missing numbers; an item of a list; a caption.
+   An answer's kind: whether the data decide the question (true or false), or what they say of a conclusion. */
+typedef enum koksma__words_kind {
     KOKSMA__ANSWER_UNDECIDED,
     KOKSMA__ANSWER_DECIDED,
     KOKSMA__ANSWER_HOLDS,
     KOKSMA__ANSWER_PARTLY,
-    KOKSMA__ANSWER_FAILS
-} koksma__answer_kind;
-void koksma__doc_paragraph(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
-void koksma__doc_warning(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
-void koksma__doc_answer(koksma__document *d, koksma__answer_kind kind, const char *format, ...) KOKSMA_PRINTF(3, 4);
+    KOKSMA__ANSWER_FAILS,
+    KOKSMA__PARAGRAPH,
+    KOKSMA__WARNING,
+    KOKSMA__ITEM,
+    KOKSMA__CAPTION
+} koksma__words_kind;
+void koksma__doc_begin(koksma__document *d, koksma__words_kind kind);
 
-/* A list; koksma__doc_item begins each item with its first words. numbered: the items are notes that table cells refer to
-   by number. */
+/* Each begins with its first words. */
+#define koksma__doc_answer(d, kind, ...) (koksma__doc_begin(d, kind), koksma__doc_say(d, __VA_ARGS__))
+#define koksma__doc_paragraph(d, ...) koksma__doc_answer(d, KOKSMA__PARAGRAPH, __VA_ARGS__)
+#define koksma__doc_warning(d, ...) koksma__doc_answer(d, KOKSMA__WARNING, __VA_ARGS__)
+#define koksma__doc_item(d, ...) koksma__doc_answer(d, KOKSMA__ITEM, __VA_ARGS__)
+#define koksma__doc_caption(d, ...) koksma__doc_answer(d, KOKSMA__CAPTION, __VA_ARGS__)
+
+/* A list. numbered: the items are notes that table cells refer to by number. */
 void koksma__doc_list(koksma__document *d, const char *id, bool numbered);
-void koksma__doc_item(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Begins a list of command lines, for the reader to copy, that reproduce the numbers above them; adds one. A command is
    cut at twice the size of a list of names in it. */
@@ -117,7 +127,8 @@ void koksma__doc_sort(koksma__document *d, const char *column, bool descending);
 void koksma__doc_columns(koksma__document *d, const char *columns, ...) KOKSMA_PRINTF(2, 3);
 /* Begins a row with its first cells; koksma__doc_cells adds more. types has a letter for each, which is the type of its
    argument: t a text, n a double, z a size_t, d a long long, i a koksma__estimate. NAN: a dash. */
-void koksma__doc_row(koksma__document *d, const char *types, ...);
+void koksma__doc_begin_row(koksma__document *d);
+#define koksma__doc_row(d, ...) (koksma__doc_begin_row(d), koksma__doc_cells(d, __VA_ARGS__))
 void koksma__doc_cells(koksma__document *d, const char *types, ...);
 void koksma__doc_cell(koksma__document *d, const koksma__cell_data *cell);
 
@@ -159,7 +170,6 @@ koksma_status koksma__doc_image(koksma__document *d, const koksma_image *image, 
 void koksma__doc_drawing(koksma__document *d, int width, const double view[4], const char *alt);
 void koksma__doc_line(koksma__document *d, double x0, double y0, double x1, double y1);
 void koksma__doc_dot(koksma__document *d, double x, double y);
-void koksma__doc_caption(koksma__document *d, const char *format, ...) KOKSMA_PRINTF(2, 3);
 
 /* Begins a set of images of one scene and size, stored as little-endian 32-bit floats in base 64. The first image is
    the reference; the page shows the others with their errors, and compares any two. */
