@@ -317,7 +317,6 @@ static void add_parts(koksma__report *r, koksma__document *d, const koksma__topi
     koksma__doc_end(d);
 }
 
-/* Adds a scatter plot of a case. */
 static void add_scatter(koksma__report *r, koksma__document *d, const koksma__topic *topic, const one_case *p)
 {
     const pairs found = read_pairs(r, topic, p);

@@ -11,7 +11,6 @@
 
 enum { EQUAL_TO = 16 };
 
-/* Adds a row for each pattern of the images of a scene with its options. */
 static void add_rows(koksma__report *r, koksma__document *d, const koksma__subject *s)
 {
     const size_t sizes = s->n->n;

@@ -47,9 +47,8 @@ static size_t pair(const side *base, const side *other, double *of_base, double 
 static void compare(koksma__report *r, koksma__document *d, const side *base, const side *other, comparison *t)
 {
     const size_t capacity = base->mean.n < other->mean.n ? base->mean.n : other->mean.n;
-    double *x = malloc((2 * capacity + 1) * sizeof *x), *y = x + capacity;
+    double *x = koksma__report_memory(r, 2 * capacity, sizeof *x), *y = x + capacity;
     if (!x) {
-        koksma__report_keep(r, koksma__fail_memory((2 * capacity + 1) * sizeof *x));
         return;
     }
     const size_t n = pair(base, other, x, y);
@@ -67,7 +66,6 @@ static void compare(koksma__report *r, koksma__document *d, const side *base, co
         t->unknown += !equal && isnan(e.low);
         t->logs += koksma__log(1 + e.value);
     }
-    free(x);
 }
 
 static const char *name_of(const char *option)

@@ -180,7 +180,6 @@ static void say_fastest(koksma__report *r, koksma__document *d, const slopes *s)
     }
 }
 
-/* Writes the sentence, unless no pattern has a slope. */
 static void say_slopes(koksma__report *r, koksma__document *d, slopes *s)
 {
     count(s);
@@ -219,7 +218,6 @@ static const char *bound_of(const koksma__subject *s, const koksma__curve *like,
     return bound.source;
 }
 
-/* Adds the row and the line of a pattern. */
 static void add_pattern(koksma__document *d, koksma__document *chart, const slopes *s, size_t p,
                         const koksma__curve *c)
 {
@@ -251,7 +249,6 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
     koksma__doc_row(d, "ti", text, slope);
 }
 
-/* Adds the rows and curves of all patterns, and finds their slopes. */
 static void add_rows(koksma__report *r, koksma__document *d, koksma__document *chart, slopes *s)
 {
     koksma__curve c = koksma__curve_of(r, s->of->n->n), bound = koksma__curve_of(r, s->of->n->n);

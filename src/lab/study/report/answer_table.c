@@ -100,20 +100,20 @@ static void say_standing(koksma__document *d, const standing *s)
 /* Writes the cell with the numbers of samples at which a pattern's error is in bands, such as "4, 16 samples". */
 static void add_bands(koksma__report *r, koksma__document *d, const koksma__subject *s, const char *pattern)
 {
-    char text[512] = "";
-    size_t length = 0, known = 0;
+    char text[512] = "", number[32];
+    size_t known = 0;
     for (size_t k = 0; k < s->n->n; k++) {
         const koksma_coherence_values v = koksma__mean_coherence(r, s, pattern, s->n->at[k]);
         known += v.images > 0;
-        if (v.coherent && length < sizeof text) {
-            length +=
-                (size_t)snprintf(text + length, sizeof text - length, "%s%lld", length ? ", " : "", s->n->at[k]);
+        if (v.coherent) {
+            snprintf(number, sizeof number, "%lld", s->n->at[k]);
+            koksma__text_join(text, sizeof text, ", ", number);
         }
     }
-    if (length && length < sizeof text) {
-        snprintf(text + length, sizeof text - length, " samples");
+    if (*text) {
+        koksma__text_join(text, sizeof text, " ", "samples");
     }
-    koksma__doc_cells(d, "t", length ? text : known ? "none" : "not known");
+    koksma__doc_cells(d, "t", *text ? text : known ? "none" : "not known");
 }
 
 /* Writes whether the error of the best pattern, at the largest number of samples, is in visible bands. If it is, names

@@ -126,6 +126,9 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
     writer *w = context;
     char text[(2 + N_VALUES) * (KOKSMA__CSV_NUMBER + 1)];
     double values[N_VALUES];
+    if (w->hash && w->rows++ % BETWEEN_CALLS == 0 && !koksma__keep_going(w->run, 0)) {
+        return koksma__fail_interrupted();
+    }
     KOKSMA__TRY(w->before && series->id == w->series ? KOKSMA_OK : begin_series(w, series));
     values_of(series, result, values);
     size_t length = koksma__csv_whole((uint64_t)result->trial, text);
@@ -141,10 +144,11 @@ static koksma_status put_csv(void *context, const koksma__series *series, const 
     return KOKSMA_OK;
 }
 
-static void put_csv_header(FILE *f)
+static void put_csv_header(const writer *w)
 {
     for (int k = 0; k < N_COLUMNS; k++) {
-        fprintf(f, "%s%c", names[k], k + 1 < N_COLUMNS ? ',' : '\n');
+        put_text(w, names[k], strlen(names[k]));
+        put_text(w, k + 1 < N_COLUMNS ? "," : "\n", 1);
     }
 }
 
@@ -174,33 +178,15 @@ static koksma_status put_json(void *context, const koksma__series *series, const
 
 /* ---- SHA-256 of the CSV -------------------------------------------------------------------------------- */
 
-static koksma_status hash_row(void *context, const koksma__series *series, const koksma__result *result)
-{
-    writer *w = context;
-    if (w->rows++ % BETWEEN_CALLS == 0 && !koksma__keep_going(w->run, 0)) {
-        return koksma__fail_interrupted();
-    }
-    return put_csv(w, series, result);
-}
-
 koksma_status koksma__rows_sha256(koksma__store *store, const koksma_run *run, char text[KOKSMA__SHA256_TEXT])
 {
     koksma__sha256 hash;
     writer w = {.hash = &hash, .run = run};
-    char *header = NULL;
-    size_t size = 0;
-    FILE *stream = open_memstream(&header, &size);
-    if (stream) {
-        put_csv_header(stream);
-    }
-    koksma_status status = stream && !fclose(stream) ? KOKSMA_OK : koksma__fail_memory(1);
     koksma__sha256_init(&hash);
-    if (!status) {
-        koksma__sha256_add(&hash, header, size);
-        status = koksma__store_visit(store, hash_row, &w);
-    }
+    put_csv_header(&w);
+    const koksma_status status = koksma__store_visit(store, put_csv, &w);
     koksma__sha256_finish(&hash, text);
-    KOKSMA__FREE(header, w.before, w.after);
+    KOKSMA__FREE(w.before, w.after);
     return status;
 }
 
@@ -212,7 +198,7 @@ static koksma_status write_rows(koksma__store *store, koksma_export_format forma
     koksma_status status = KOKSMA_OK;
     switch (format) {
     case KOKSMA_EXPORT_CSV:
-        put_csv_header(w->stream);
+        put_csv_header(w);
         return koksma__store_visit(store, put_csv, w);
     case KOKSMA_EXPORT_JSON:
         return koksma__store_visit(store, put_json, w);

@@ -31,7 +31,6 @@ enum { MOST_BYTES = 24 << 20, MAX_SHOWN = 24 };
 
 /* ---- Trials of a task -------------------------------------------------------------------------------------- */
 
-/* Renders the picture of a trial of a task. */
 static koksma_status render(const koksma__task *t, long long trial, const koksma_run *run, koksma_image *out)
 {
     const koksma__picture picture = {.pattern = t->pattern,
@@ -100,31 +99,27 @@ static koksma_coherence_values average(koksma__report *r, const koksma__task *t,
 
 struct koksma__coherences {
     koksma__tasks tasks;
-    koksma_coherence_values *of; /* of each task */
-    bool *known;
+    struct {
+        koksma_coherence_values values;
+        bool known;
+    } * of;         /* each task */
     double samples; /* rendered so far */
 };
 
 static bool open_all(koksma__report *r)
 {
-    struct koksma__coherences *c = r->status ? NULL : calloc(1, sizeof *c);
-    if (!c) {
-        return koksma__report_keep(r, r->status ? r->status : koksma__fail_memory(sizeof *c));
-    }
-    r->coherences = c;
-    if (koksma__report_keep(r, koksma__tasks_open(r->study, true, &c->tasks))) {
+    struct koksma__coherences *c = r->coherences = calloc(1, sizeof *c);
+    if (c && koksma__report_keep(r, koksma__tasks_open(r->study, true, &c->tasks))) {
         c->of = calloc(c->tasks.n + 1, sizeof *c->of);
-        c->known = calloc(c->tasks.n + 1, sizeof *c->known);
-        koksma__report_keep(r, c->of && c->known ? KOKSMA_OK : koksma__fail_memory(c->tasks.n * sizeof *c->of));
     }
-    return !r->status;
+    return koksma__report_keep(r, r->status || (c && c->of) ? r->status : koksma__fail_memory(sizeof *c));
 }
 
 void koksma__mean_coherence_forget(koksma__report *r)
 {
     if (r->coherences) {
         koksma__tasks_close(&r->coherences->tasks);
-        KOKSMA__FREE(r->coherences->of, r->coherences->known, r->coherences);
+        KOKSMA__FREE(r->coherences->of, r->coherences);
         r->coherences = NULL;
     }
 }
@@ -133,7 +128,7 @@ koksma_coherence_values koksma__mean_coherence(koksma__report *r, const koksma__
                                                long long n)
 {
     const koksma_coherence_values none = {.coherence = NAN, .noise_high = NAN};
-    if (!(r->coherences || open_all(r)) || r->status) {
+    if (r->status || !(r->coherences || open_all(r))) {
         return none;
     }
     struct koksma__coherences *c = r->coherences;
@@ -145,19 +140,19 @@ koksma_coherence_values koksma__mean_coherence(koksma__report *r, const koksma__
             break;
         }
     }
-    if (i < c->tasks.n && !c->known[i]) {
+    if (i < c->tasks.n && !c->of[i].known) {
         const koksma__task *t = &c->tasks.at[i];
         const double samples = (double)t->width * t->height * (double)t->n * (double)averaged(t);
         koksma__phases phases = {0};
         const koksma_run run = koksma__phase_run(&phases, r->run, 0); /* the fractions of short calls say nothing */
-        c->known[i] = true;
-        c->of[i] = none;
+        c->of[i].known = true;
+        c->of[i].values = none;
         if (has_trials(r, t, averaged(t)) && has_reference(r, t) && c->samples + samples <= MOST_SAMPLES) {
             c->samples += samples;
-            c->of[i] = average(r, t, &run);
+            c->of[i].values = average(r, t, &run);
         }
     }
-    return i < c->tasks.n ? c->of[i] : none;
+    return i < c->tasks.n ? c->of[i].values : none;
 }
 
 /* ---- The section ------------------------------------------------------------------------------------------- */
@@ -168,7 +163,6 @@ static bool is_served(const koksma__image_block *block, size_t p)
     return !koksma__is_left_out(&block->left_out, p, block->spp.n, block->spp.n / 2);
 }
 
-/* The first pattern of a block that can make the block's middle number of samples. */
 static size_t first_served(const koksma__image_block *block)
 {
     size_t p = 0;
@@ -189,7 +183,6 @@ static bool are_done(koksma__report *r, const koksma__task *first, size_t n)
     return done;
 }
 
-/* Adds the pictures of the reference and of the first trial of each of the block's first n patterns. */
 static void add_pictures(koksma__report *r, koksma__document *d, const koksma__task *first, size_t n, size_t *used)
 {
     koksma__doc_pictures(d, first->scene->name, first->width, first->height);

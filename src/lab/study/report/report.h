@@ -9,6 +9,7 @@
 #ifndef KOKSMA_STUDY_REPORT_REPORT_H
 #define KOKSMA_STUDY_REPORT_REPORT_H
 
+#include "core/parallel.h"
 #include "stats/stats.h"
 #include "study/report/document.h"
 #include "study/run/study.h"
@@ -16,7 +17,9 @@
 
 typedef struct koksma__report {
     koksma_study *study;
-    const koksma_run *run;          /* of the section that is being written; may be NULL */
+    const koksma_run *all, *run;    /* of the report; of the section that is being written. May be NULL */
+    koksma__phases phases;          /* the progress of the report, */
+    double share;                   /* of which a section has this share */
     koksma_status status;           /* of the first failure */
     size_t part;                    /* index of the plan that a section of each plan is about */
     char rows[KOKSMA__SHA256_TEXT]; /* SHA-256 of all rows of the store */

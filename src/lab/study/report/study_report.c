@@ -25,24 +25,8 @@ static const struct {
 
 enum { N_SECTIONS = sizeof sections / sizeof *sections };
 
-/* The progress of a report: the rows are hashed once, then each section takes an equal share. */
-typedef struct progress {
-    koksma__phases phases;
-    const koksma_run *run;
-    double share;
-} progress;
-
-static progress begin_progress(const koksma__plan *plan, const koksma_run *run)
-{
-    size_t n = 1;
-    for (size_t i = 0; i < N_SECTIONS; i++) {
-        n += sections[i].section->of_each_plan ? plan->n_parts : 1;
-    }
-    return (progress){.run = run, .share = 1 / (double)n};
-}
-
 /* Appends the sections that every plan has (of_each_plan), or those that the whole study has once. */
-static void add_sections(koksma__report *r, progress *p, bool of_each_plan, koksma__document *d)
+static void add_sections(koksma__report *r, bool of_each_plan, koksma__document *d)
 {
     for (size_t i = 0; !r->status && i < N_SECTIONS; i++) {
         const koksma__section *s = sections[i].section;
@@ -50,7 +34,7 @@ static void add_sections(koksma__report *r, progress *p, bool of_each_plan, koks
         if (s->of_each_plan != of_each_plan) {
             continue;
         }
-        const koksma_run part = koksma__phase_run(&p->phases, p->run, p->share);
+        const koksma_run part = koksma__phase_run(&r->phases, r->all, r->share);
         r->run = &part;
         if (koksma__report_goes_on(r)) {
             s->write(r, &content);
@@ -66,26 +50,32 @@ static void add_sections(koksma__report *r, progress *p, bool of_each_plan, koks
 }
 
 /* Appends the sections of one plan, under the plan's title and description if the study has several plans. */
-static void add_plan(koksma__report *r, progress *p, koksma__document *d)
+static void add_plan(koksma__report *r, koksma__document *d)
 {
     const koksma__plan_part *plan = koksma__plan_of(r);
-    if (r->study->plan.n_parts == 1) {
-        add_sections(r, p, true, d);
-        return;
+    const bool alone = r->study->plan.n_parts == 1;
+    if (!alone) {
+        koksma__doc_section(d, NULL, "%s", plan->title);
     }
-    koksma__doc_section(d, NULL, "%s", plan->title);
-    if (plan->about) {
+    if (!alone && plan->about) {
         koksma__doc_paragraph(d, "%s", plan->about);
     }
-    add_sections(r, p, true, d);
-    koksma__doc_end(d);
+    add_sections(r, true, d);
+    if (!alone) {
+        koksma__doc_end(d);
+    }
 }
 
-static koksma_status build(koksma__report *r, const koksma_run *run, koksma__document *d)
+/* The rows are hashed, which takes one share of the progress; then each section takes one. */
+static koksma_status build(koksma__report *r, koksma__document *d)
 {
     const koksma__plan *plan = &r->study->plan;
-    progress p = begin_progress(plan, run);
-    const koksma_run first = koksma__phase_run(&p.phases, run, p.share);
+    size_t shares = 1;
+    for (size_t i = 0; i < N_SECTIONS; i++) {
+        shares += sections[i].section->of_each_plan ? plan->n_parts : 1;
+    }
+    r->share = 1 / (double)shares;
+    const koksma_run first = koksma__phase_run(&r->phases, r->all, r->share);
     if (koksma__report_keep(r, koksma__ask(&first))) {
         koksma__report_keep(r, koksma__rows_sha256(r->study->store, &first, r->rows));
     }
@@ -95,9 +85,9 @@ static koksma_status build(koksma__report *r, const koksma_run *run, koksma__doc
     koksma__json_write_text(&d->json, "rows_sha256", r->rows);
     koksma__doc_content(d);
     for (; !r->status && r->part < plan->n_parts; r->part++) {
-        add_plan(r, &p, d);
+        add_plan(r, d);
     }
-    add_sections(r, &p, false, d);
+    add_sections(r, false, d);
     koksma__doc_close(d);
     koksma__json_end(&d->json);
     return r->status ? r->status : d->json.status;
@@ -137,10 +127,10 @@ koksma_status koksma_study_report(koksma_study *study, const koksma_run *run)
     KOKSMA__REQUIRE(study);
     KOKSMA__REQUIRE_RUN(run);
     koksma__document d = {0};
-    koksma__report r = {.study = study};
+    koksma__report r = {.study = study, .all = run};
     KOKSMA__FAIL_IF(!study->store, KOKSMA_ARGUMENT, "a study without a folder has no report");
     koksma__study_forget_files(study);
-    koksma_status status = build(&r, run, &d);
+    koksma_status status = build(&r, &d);
     koksma__mean_coherence_forget(&r);
     hide_folders(&study->plan, &d);
     status = status ? status : koksma__page_write(study->folder, d.json.text);

@@ -233,7 +233,6 @@ static koksma__estimate slope_of(const koksma__sheet_values *v, size_t s, size_t
     return (koksma__estimate){line.slope, line.slope - half, line.slope + half};
 }
 
-/* Finds the best of the other samplers by measure m at the largest size. */
 static size_t best_beside(const koksma__sheet_values *v, size_t m)
 {
     const double sign = v->measures[m].spec.measure->larger_is_better ? -1 : 1;
@@ -288,19 +287,15 @@ static void put_chart(const koksma__sheet_values *v, size_t m, koksma__document 
     }
 }
 
-/* Writes a table with every number in its own row. */
 static void put_values(const koksma__sheet_values *v, const char *name, koksma__document *d)
 {
     koksma__doc_table(d, "%s", name);
     koksma__doc_columns(d, "tm measure;tm sampler;n9 n;i4 mean;n2 SD;n9 sets");
-    for (size_t m = 0; m < v->n_measures; m++) {
-        for (size_t s = 0; s < v->n_samplers; s++) {
-            for (size_t i = 0; i < v->n_sizes; i++) {
-                const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
-                koksma__doc_row(d, "ttninn", v->measures[m].name, v->samplers[s]->text, (double)v->sizes[i],
-                                mean_of(v, s, m, i), koksma_tally_sd(t), t->count);
-            }
-        }
+    for (size_t k = 0; k < v->n_measures * v->n_samplers * v->n_sizes; k++) {
+        const size_t i = k % v->n_sizes, s = k / v->n_sizes % v->n_samplers, m = k / v->n_sizes / v->n_samplers;
+        const koksma_tally *t = koksma__sheet_tally(v, s, m, i);
+        koksma__doc_row(d, "ttninn", v->measures[m].name, v->samplers[s]->text, (double)v->sizes[i],
+                        mean_of(v, s, m, i), koksma_tally_sd(t), t->count);
     }
 }
 
@@ -309,12 +304,11 @@ static void put_slopes(const koksma__sheet_values *v, koksma__document *d)
 {
     koksma__doc_table(d, "slopes");
     koksma__doc_columns(d, "tm measure;t sampler;i3f slope;n2 theory;n2 best possible");
-    for (size_t m = 0; m < v->n_measures; m++) {
-        for (size_t s = 0; s < v->n_samplers; s++) {
-            koksma__doc_row(d, "ttinn", v->measures[m].name, v->samplers[s]->text, slope_of(v, s, m),
-                            -koksma_rate(&v->samplers[s]->spec, v->measures[m].spec.measure, v->dim),
-                            -koksma_best_rate(v->measures[m].spec.measure, v->dim));
-        }
+    for (size_t k = 0; k < v->n_measures * v->n_samplers; k++) {
+        const koksma__sheet_measure *m = &v->measures[k / v->n_samplers];
+        const koksma__sheet_sampler *s = v->samplers[k % v->n_samplers];
+        koksma__doc_row(d, "ttinn", m->name, s->text, slope_of(v, k % v->n_samplers, k / v->n_samplers),
+                        -koksma_rate(&s->spec, m->spec.measure, v->dim), -koksma_best_rate(m->spec.measure, v->dim));
     }
 }
 

@@ -15,7 +15,6 @@
 
 enum { DRAWN = 1024, WIDTH = 168, PROJECTION_WIDTH = 140, VERIFIED = 1024, MOST_DIM = 8, DEEP_POINTS = 1024 };
 
-/* Draws coordinates a and b of the points as a figure. */
 static void draw(koksma__document *d, const koksma_points *points, int a, int b, int width, const char *what,
                  const char *caption)
 {

@@ -106,7 +106,6 @@ static void put_table(const koksma__sheet *sheet, size_t scene, koksma__document
     }
 }
 
-/* Warns if a few pixels carry most of the error in some rows of a scene's table. */
 static void warn_of_few_pixels(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
     ranked worst = {0};
@@ -130,7 +129,6 @@ static void warn_of_few_pixels(const koksma__sheet *sheet, size_t scene, koksma_
     }
 }
 
-/* Draws errors against samples per pixel. */
 static void put_chart(const koksma__sheet *sheet, size_t scene, koksma__document *d)
 {
     char title[128];

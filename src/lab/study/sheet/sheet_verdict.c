@@ -77,7 +77,6 @@ koksma_status koksma__sheet_look_for_bias(koksma__sheet *sheet, koksma__document
     return status;
 }
 
-/* Writes what was found, as the first paragraph of the verdict. */
 static void put_bias(const koksma__sheet *sheet, koksma__document *d)
 {
     const koksma__sheet_bias *bias = &sheet->bias;
@@ -193,7 +192,6 @@ static void put_measures(const koksma__sheet_values *v, const score *result, out
     }
 }
 
-/* Writes one list item for each scene, with the result at the largest number of samples per pixel. */
 static void put_scenes(const koksma__sheet *sheet, koksma__document *d)
 {
     for (size_t i = 0; i < sheet->n_scenes && sheet->n_spp; i++) {
