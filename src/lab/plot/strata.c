@@ -49,22 +49,15 @@ static void add_values(const square *q, const koksma_strata_panel *panel)
     }
 }
 
-static void add_needless(const square *q, const koksma_strata_panel *panel)
-{
-    for (size_t i = 0; i < panel->n_splits; i++) {
-        const koksma_split *s = &panel->splits[i];
-        if (s->needless) {
-            add_box(q, s->x, s->y, s->width, s->height, 0, black);
-        }
-    }
-}
-
-static void add_needed(const square *q, const koksma_strata_panel *panel)
+/* Draws the splits that were needless, or those that were not. */
+static void add_splits(const square *q, const koksma_strata_panel *panel, bool needless)
 {
     for (size_t i = 0; i < panel->n_splits; i++) {
         const koksma_split *s = &panel->splits[i];
         const double width = s->width < s->height ? s->width : s->height, radius = 0.5 * width * q->side;
-        if (!s->needless) {
+        if (needless && s->needless) {
+            add_box(q, s->x, s->y, s->width, s->height, 0, black);
+        } else if (!needless && !s->needless) {
             q->canvas->draw->circle(q->canvas, q->x + (s->x + s->width / 2) * q->side,
                                     q->y + (s->y + s->height / 2) * q->side, radius > 3 ? radius : 3,
                                     (koksma__style){.thickness = s->level ? 1 : 2, .colour = ring});
@@ -75,14 +68,14 @@ static void add_needed(const square *q, const koksma_strata_panel *panel)
 static void add_panel(const square *q, const koksma_strata_panel *panel)
 {
     add_values(q, panel);
-    add_needless(q, panel);
+    add_splits(q, panel, true);
     for (size_t i = 0; i < panel->n; i++) {
         const koksma_stratum *s = &panel->strata[i];
         add_box(q, s->x, s->y, s->width, s->height, 0.6, line);
         q->canvas->draw->circle(q->canvas, q->x + s->at[0] * q->side, q->y + s->at[1] * q->side, s->level ? 1.5 : 2.2,
                                 (koksma__style){.colour = dot});
     }
-    add_needed(q, panel);
+    add_splits(q, panel, false);
     if (panel->caption) {
         koksma__canvas_text(q->canvas, q->x + q->side / 2, q->y + q->side + MARGIN + 8, 11, 0.5, panel->caption, ink);
     }

@@ -39,16 +39,6 @@ typedef struct slopes {
     size_t is_random;                   /* index of a pattern of random points; patterns->n: none */
 } slopes;
 
-/* Fills in the sizes at which a pattern's mean is above 0. */
-static void collect(const slopes *s, size_t pattern, koksma__curve *out)
-{
-    const koksma__wholes *n = s->of->n;
-    out->n = 0;
-    for (size_t k = 0; k < n->n; k++) {
-        koksma__curve_add(out, n->at[k], s->means[pattern * n->n + k]);
-    }
-}
-
 /* The trend over the larger half of the sizes, and over at least three sizes if there are that many. */
 static koksma__trend trend_of(const koksma__curve *c)
 {
@@ -218,20 +208,6 @@ static const char *bound_of(const koksma__subject *s, const koksma__curve *like,
     return bound.source;
 }
 
-static void add_pattern(koksma__document *d, koksma__document *chart, const slopes *s, size_t p,
-                        const koksma__curve *c)
-{
-    const koksma__subject *of = s->of;
-    koksma__doc_series(chart, of->patterns->at[p], NULL, KOKSMA__SERIES_LINE);
-    for (size_t i = 0; i < c->n; i++) {
-        koksma__doc_point(chart, c->x[i], c->y[i].mean, c->y[i].low, c->y[i].high);
-    }
-    koksma__doc_row(d, "tit", of->patterns->at[p], s->trends[p].slope,
-                    s->trends[p].off_line ? "no"
-                    : c->n < of->n->n     ? "of fewer sizes"
-                                          : "");
-}
-
 /* Adds the row and the line of a bound. `scale` makes the line begin at a quarter of the first value of the first
    pattern's curve. */
 static void add_bound(koksma__document *d, koksma__document *chart, const char *who, const koksma__curve *bound,
@@ -249,18 +225,31 @@ static void add_bound(koksma__document *d, koksma__document *chart, const char *
     koksma__doc_row(d, "ti", text, slope);
 }
 
+/* Adds the rows and lines of all patterns, of the sizes at which their means are above 0, and of the bound. */
 static void add_rows(koksma__report *r, koksma__document *d, koksma__document *chart, slopes *s)
 {
-    koksma__curve c = koksma__curve_of(r, s->of->n->n), bound = koksma__curve_of(r, s->of->n->n);
+    const koksma__subject *of = s->of;
+    const size_t sizes = of->n->n;
+    koksma__curve c = koksma__curve_of(r, sizes), bound = koksma__curve_of(r, sizes);
     const char *who = NULL;
     double scale = 1;
-    for (size_t p = 0; !r->status && p < s->of->patterns->n; p++) {
-        collect(s, p, &c);
+    for (size_t p = 0; !r->status && p < of->patterns->n; p++) {
+        koksma__doc_series(chart, of->patterns->at[p], NULL, KOKSMA__SERIES_LINE);
+        c.n = 0;
+        for (size_t k = 0; k < sizes; k++) {
+            koksma__curve_add(&c, of->n->at[k], s->means[p * sizes + k]);
+        }
+        for (size_t i = 0; i < c.n; i++) {
+            koksma__doc_point(chart, c.x[i], c.y[i].mean, c.y[i].low, c.y[i].high);
+        }
         s->trends[p] = trend_of(&c);
-        if (p == 0 && (who = bound_of(s->of, &c, &bound))) {
+        koksma__doc_row(d, "tit", of->patterns->at[p], s->trends[p].slope,
+                        s->trends[p].off_line ? "no"
+                        : c.n < sizes         ? "of fewer sizes"
+                                              : "");
+        if (p == 0 && (who = bound_of(of, &c, &bound))) {
             scale = c.y[0].mean / bound.y[0].mean / 4;
         }
-        add_pattern(d, chart, s, p, &c);
     }
     if (!r->status && who) {
         add_bound(d, chart, who, &bound, scale);

@@ -430,14 +430,19 @@ static void conclude_metric(judged *j)
    still tilts it. */
 #define TOLERANCE 0.05
 
-/* The means of a pattern at all sizes, those above 0. */
-static koksma__curve read_curve(const judged *j, const koksma__subject *s, const char *pattern)
+/* The slope of our means of a pattern: by a measure of a table over its columns, or of a subject over its numbers of
+   points. NaN if one is missing. */
+static koksma__estimate slope_of(const judged *j, const koksma__table *t, const koksma__subject *s,
+                                 const char *measure, const char *pattern)
 {
-    koksma__curve c = koksma__curve_of(j->r, s->n->n);
-    for (size_t k = 0; k < s->n->n; k++) {
-        koksma__curve_add(&c, s->n->at[k], koksma__read_mean(j->r, s, pattern, s->n->at[k], NULL));
+    const koksma__wholes *n = t ? &t->n : s->n;
+    koksma__curve c = koksma__curve_of(j->r, n->n);
+    for (size_t k = 0; k < n->n; k++) {
+        koksma__curve_add(&c, n->at[k],
+                          t ? koksma__points_cell(j->r, t, measure, pattern, n->at[k]).mean
+                            : koksma__read_mean(j->r, s, pattern, n->at[k], NULL));
     }
-    return c;
+    return c.n == n->n ? koksma__trend_of(c.x, c.y, c.n).slope : (koksma__estimate){NAN, NAN, NAN};
 }
 
 /* Each pattern and measure is a test: the whole interval of the slope over the block's numbers of points must be below
@@ -445,18 +450,16 @@ static koksma__curve read_curve(const judged *j, const koksma__subject *s, const
 static void test_rates(judged *j, const koksma__subject *s)
 {
     const koksma__texts *patterns = &j->c->patterns;
-    const size_t sizes = s->n->n;
-    koksma__doc_say(&j->words, "`%s`, N = %lld to %lld: ", s->measure, s->n->at[0], s->n->at[sizes - 1]);
-    const koksma__curve random =
-        koksma__texts_have(s->patterns, "random") ? read_curve(j, s, "random") : (koksma__curve){0};
-    if (random.n == sizes) {
-        const koksma__estimate slope = koksma__trend_of(random.x, random.y, sizes).slope;
-        koksma__doc_say(&j->words, "random N^%.3f^ (± %.3f), ", slope.value, slope.high - slope.value);
+    koksma__doc_say(&j->words, "`%s`, N = %lld to %lld: ", s->measure, s->n->at[0], s->n->at[s->n->n - 1]);
+    if (koksma__texts_have(s->patterns, "random")) {
+        const koksma__estimate slope = slope_of(j, NULL, s, NULL, "random");
+        if (!isnan(slope.value)) {
+            koksma__doc_say(&j->words, "random N^%.3f^ (± %.3f), ", slope.value, slope.high - slope.value);
+        }
     }
     for (size_t i = 0; i < patterns->n; i++) {
-        const koksma__curve curve = read_curve(j, s, patterns->at[i]);
-        const koksma__estimate slope = koksma__trend_of(curve.x, curve.y, curve.n).slope;
-        if (curve.n < sizes || isnan(slope.high)) {
+        const koksma__estimate slope = slope_of(j, NULL, s, NULL, patterns->at[i]);
+        if (isnan(slope.high)) {
             j->open++;
             continue;
         }
@@ -481,16 +484,6 @@ static void conclude_rates(judged *j)
 }
 
 /* ---- slopes: the printed tables over several n, by the slopes that stand beside their rows ------------------- */
-
-/* The slope of our means of a row by a measure of its table, of all columns; NaN if one is missing. */
-static koksma__estimate slope_of(const judged *j, const koksma__table *t, const char *measure, const char *pattern)
-{
-    koksma__curve c = koksma__curve_of(j->r, t->n.n);
-    for (size_t k = 0; k < t->n.n; k++) {
-        koksma__curve_add(&c, t->n.at[k], koksma__points_cell(j->r, t, measure, pattern, t->n.at[k]).mean);
-    }
-    return c.n == t->n.n ? koksma__trend_of(c.x, c.y, c.n).slope : (koksma__estimate){NAN, NAN, NAN};
-}
 
 /* Whether a slope is as a conclusion says: surely above that of another table, or surely below -1/2 - TOLERANCE if it is to
    be `faster`, and otherwise not. */
@@ -518,16 +511,16 @@ static void conclude_slopes(judged *j)
             if (!koksma__plan_row_of(t, pattern)) {
                 continue;
             }
-            const koksma__estimate slope = slope_of(j, t, judged_by(t), pattern);
+            const koksma__estimate slope = slope_of(j, t, NULL, judged_by(t), pattern);
             koksma__doc_say(&slopes, said++ ? ", " : " ");
             say_label(j, &slopes, pattern);
             koksma__doc_say(&slopes, " %.3f ± %.3f", slope.value, slope.high - slope.value);
             if (by) {
-                least = slope_of(j, by, judged_by(by), pattern);
+                least = slope_of(j, by, NULL, judged_by(by), pattern);
                 koksma__doc_say(&slopes, " (%.3f ± %.3f in table %s)", least.value, least.high - least.value, by->id);
             }
             if (exact) {
-                unsure += !slope_passes(slope_of(j, t, t->measure, pattern), above, faster);
+                unsure += !slope_passes(slope_of(j, t, NULL, t->measure, pattern), above, faster);
             }
             j->other += other;
             j->open += isnan(slope.high) || (by && isnan(least.high));

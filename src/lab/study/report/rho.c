@@ -186,12 +186,6 @@ bool koksma__rho_is_better(const koksma__rho_ranking *r, size_t a, size_t b)
            r->of[a].mean.value > r->of[b].mean.value;
 }
 
-/* Whether a measure's mean is significantly above 0 (at 5 % for all measures together). */
-static bool predicts(const koksma__rho_ranking *r, size_t measure)
-{
-    return r->of[measure].cases && r->of[measure].p <= LEVEL && r->of[measure].mean.value > 0;
-}
-
 /* ---- Without one scene --------------------------------------------------------------------------------- */
 
 koksma__rho_jackknife koksma__rho_leave_out(koksma__report *r, const koksma__rho_means *s)
@@ -213,9 +207,10 @@ bool koksma__rho_always(const koksma__rho_jackknife *j, koksma__rho_statement st
     bool always = j->n > 0;
     for (size_t i = 0; always && i < j->n; i++) {
         const koksma__rho_ranking *r = &j->of[i];
-        always = statement == KOKSMA__RHO_BETTER     ? koksma__rho_is_better(r, a, b)
-                 : statement == KOKSMA__RHO_PREDICTS ? predicts(r, a)
-                                                     : r->order[0] == a;
+        always = statement == KOKSMA__RHO_BETTER ? koksma__rho_is_better(r, a, b)
+                 : statement == KOKSMA__RHO_PREDICTS
+                     ? r->of[a].cases && r->of[a].p <= LEVEL && r->of[a].mean.value > 0
+                     : r->order[0] == a;
     }
     return always;
 }

@@ -83,11 +83,9 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
 
 static koksma_status check_options(const koksma_datasheet_options *o)
 {
-    if (!o->sampler || !*o->sampler) {
-        return koksma__fail(
-            KOKSMA_ARGUMENT,
-            "sampler: it must be a pattern's spec, a file of points, or a family of files such as my_{n}_{seed}.npy");
-    }
+    KOKSMA__FAIL_IF(
+        !o->sampler || !*o->sampler, KOKSMA_ARGUMENT,
+        "sampler: it must be a pattern's spec, a file of points, or a family of files such as my_{n}_{seed}.npy");
     KOKSMA__FAIL_IF(o->beside && o->n_beside > KOKSMA_MAX_BESIDE, KOKSMA_ARGUMENT,
                     "n_beside: %zu samplers to compare with; the maximum is %d", o->n_beside, KOKSMA_MAX_BESIDE);
     KOKSMA__FAIL_IF(o->scenes && o->n_scenes > KOKSMA_MAX_SHEET_SCENES, KOKSMA_ARGUMENT,

@@ -36,10 +36,8 @@ koksma_run koksma__sheet_part(koksma__sheet *sheet, double share, double pass_sh
 
 static bool keep_going_in_set(void *context, double fraction)
 {
-    const koksma__sheet *sheet = context;
-    const double now = sheet->passed + (1 - sheet->passed) * sheet->pass_share * sheet->fraction;
     (void)fraction; /* a single set does not count as progress */
-    return koksma__keep_going(sheet->run, sheet->done + sheet->share * now);
+    return keep_going(context, ((koksma__sheet *)context)->fraction);
 }
 
 koksma_run koksma__sheet_one_set(koksma__sheet *sheet)
