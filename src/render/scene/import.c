@@ -179,22 +179,6 @@ void koksma__import_radiance(koksma__import *im, double rgb[3])
     }
 }
 
-void koksma__import_black_body(double kelvin, double rgb[3])
-{
-    const double t = fmin(fmax(kelvin, 1667), 25000), i = 1000 / t;
-    const double x = t < 4000 ? ((-0.2661239 * i - 0.2343589) * i + 0.8776956) * i + 0.179910
-                              : ((-3.0258469 * i + 2.1070379) * i + 0.2226347) * i + 0.240390;
-    const double y = t < 2222   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
-                     : t < 4000 ? ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867
-                                : ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;
-    const double xyz[3] = {x / y, 1, (1 - x - y) / y};
-    static const double to_rgb[3][3] = {
-        {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
-    for (int k = 0; k < 3; k++) {
-        rgb[k] = fmax(koksma__dot(to_rgb[k], xyz), 0);
-    }
-}
-
 bool koksma__import_metal(const char *name, double rgb[3])
 {
     /* reflectance along the normal in daylight, as linear sRGB, which tools/metals.py computes from published optical
@@ -674,6 +658,13 @@ bool koksma__import_normalise(double v[3])
 }
 
 /* ---- The camera ------------------------------------------------------------------------------------------- */
+
+void koksma__import_apply(const double m[12], const double v[3], double w, double out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        out[k] = koksma__dot(m + 4 * k, v) + w * m[4 * k + 3];
+    }
+}
 
 bool koksma__import_invert(const double m[12], double out[12])
 {

@@ -47,6 +47,10 @@ typedef enum koksma__spectrum_use {
 /* The colour of a spectrum; negative channels are 0. */
 void koksma__sampled_spectrum_colour(const koksma__sampled_spectrum *s, koksma__spectrum_use use, double rgb[3]);
 
+/* The colour of a black body at a temperature in kelvins, with luminance 1, from its chromaticity (Kim et al.
+   2002). */
+void koksma__black_body_colour(double kelvin, double rgb[3]);
+
 /* ---- Types ----------------------------------------------------------------------------------------------------------- */
 
 /* A position in a text of a scene that is read, for messages. */
@@ -69,6 +73,7 @@ typedef enum koksma__form {
 } koksma__form;
 
 typedef struct koksma__open_text {
+    const char *name; /* valid as long as the import, for messages about places in the text */
     char *bytes;
     size_t size;
 } koksma__open_text;
@@ -89,7 +94,8 @@ typedef struct koksma__import {
     size_t n_twins, n_packed, kept; /* kept: the vertices and triangles of `packed` together */
     koksma__mesh mesh;              /* the one that is being made */
     koksma__open_text *texts;       /* those that are being read, of which each includes the next one */
-    size_t n_texts;
+    char **names;                   /* those of the texts that were read */
+    size_t n_texts, n_names;
     jmp_buf *back; /* where a failure ends reading, with this status */
     koksma_status status;
 } koksma__import;
@@ -157,16 +163,21 @@ typedef struct koksma__plugins {
     size_t n;
 } koksma__plugins;
 
-/* A parameter of a row; texts that refer to the row. */
+/* A parameter of a row; texts that refer to the row. All of them:
+       for (koksma__entry e = koksma__entries_of(row); koksma__entry_next(&e);) */
 typedef struct koksma__entry {
+    const char *rest; /* of the row's text */
     const char *type, *name;
     const char *older, *otherwise, *values; /* an older name, the default, a closed list of values; or NULL */
     size_t type_length, length, older_length, values_length;
     bool without_effect, is_needed;
 } koksma__entry;
 
-/* Takes the next parameter from a row's text; *e is zeroed at first, and its type is that of the one before. */
-bool koksma__entry_next(const char **text, koksma__entry *e);
+static inline koksma__entry koksma__entries_of(const koksma__plugin *row)
+{
+    return (koksma__entry){.rest = row->parameters};
+}
+bool koksma__entry_next(koksma__entry *e);
 
 /* The default, 0 if it has none. */
 double koksma__entry_number(const koksma__entry *e);
@@ -232,10 +243,6 @@ void koksma__import_path(koksma__text_place place, const char *name, char out[KO
 /* Clamps radiance to what a scene allows, at most 1e6. */
 void koksma__import_radiance(koksma__import *im, double rgb[3]);
 
-/* The colour of a black body at a temperature in kelvins, with luminance 1, from its chromaticity (Kim et al.
-   2002). */
-void koksma__import_black_body(double kelvin, double rgb[3]);
-
 /* Finds the reflectance along the normal of the metal with this name ("Au", "Cu", ...); returns false if the name is
    unknown. */
 bool koksma__import_metal(const char *name, double rgb[3]);
@@ -290,6 +297,9 @@ void koksma__import_camera(koksma__text_place place, const double matrix[12], do
 
 /* Gives a vector of any finite length the length 1; returns false if it has no direction. */
 bool koksma__import_normalise(double v[3]);
+
+/* The image of a point (w = 1) or a direction (w = 0). */
+void koksma__import_apply(const double matrix[12], const double v[3], double w, double out[3]);
 
 /* Finds the inverse of a matrix; returns false if there is none. */
 bool koksma__import_invert(const double matrix[12], double out[12]);
@@ -346,6 +356,9 @@ int koksma__import_mesh_file(koksma__text_place place, const char *name, long pa
 /* Adds a shape to the scene; `outer`, which may be NULL, is a transformation that is applied after the shape's own
    matrix. If that transformation moves, `poses` has its poses at the times 0 and 1; otherwise `poses` is NULL. */
 void koksma__import_put(const koksma__import_item *item, const double outer[12], const koksma__pose poses[2]);
+
+/* The type of Koksma's own shapes with this name, which exists. */
+const struct koksma__shape_type *koksma__own_shape_type(const char *name);
 
 /* Frees what an import keeps. */
 void koksma__import_fini(koksma__import *im);

@@ -37,8 +37,11 @@ void koksma__import_fini(koksma__import *im)
     while (im->n_texts) {
         koksma__import_text_close(im);
     }
+    for (size_t i = 0; i < im->n_names; i++) {
+        free(im->names[i]);
+    }
     koksma__mesh_fini(&im->mesh);
-    KOKSMA__FREE(im->twins, im->packed, im->texts);
+    KOKSMA__FREE(im->twins, im->packed, im->texts, im->names);
     koksma__names_fini(&im->packed_names);
     koksma__names_fini(&im->files);
 }
@@ -388,7 +391,7 @@ static bool is_close(double a, double b)
     return fabs(a - b) <= 1e-5 * fabs(a);
 }
 
-static const koksma__shape_type *shape_type(const char *name)
+const koksma__shape_type *koksma__own_shape_type(const char *name)
 {
     size_t i = 0;
     while (strcmp(koksma__shape_types[i]->kind.name, name) != 0) {
@@ -467,13 +470,13 @@ static const koksma__shape_type *own_shape(const koksma__import_item *item, cons
     }
     switch (item->form) {
     case KOKSMA__FORM_SQUARE:
-        return m && item->surface.emits ? NULL : shape_type("rectangle");
+        return m && item->surface.emits ? NULL : koksma__own_shape_type("rectangle");
     case KOKSMA__FORM_DISK:
-        return is_close(length[0], length[1]) ? shape_type("disk") : NULL;
+        return is_close(length[0], length[1]) ? koksma__own_shape_type("disk") : NULL;
     case KOKSMA__FORM_SPHERE:
         return is_close(length[0], length[1]) && is_close(length[0], length[2]) &&
                        !(item->surface.emits && item->surface.turned)
-                   ? shape_type("sphere")
+                   ? koksma__own_shape_type("sphere")
                    : NULL;
     default:
         return NULL;
@@ -486,7 +489,7 @@ static void put_own(const koksma__import_item *item, const koksma__shape_type *t
 {
     koksma__import *im = item->place.im;
     const double *m = at->matrix;
-    const bool sphere = type == shape_type("sphere"), disk = type == shape_type("disk");
+    const bool sphere = type == koksma__own_shape_type("sphere"), disk = type == koksma__own_shape_type("disk");
     const double side =
         item->surface.turned ? -1 : 1; /* u is reversed with the normal, so that the axes remain right-handed */
     koksma__shape shape = {.type = type, .material = item->surface.material, .light = -1}, *added;

@@ -10,6 +10,7 @@
  * each nanometre are computed once, because a scene may have a million spectra.
  */
 #include "core/elementary.h"
+#include "core/vector.h"
 #include "scene/import.h"
 
 #include <math.h>
@@ -94,7 +95,21 @@ static void to_rgb(const double xyz[3], double rgb[3])
     static const double matrix[3][3] = {
         {3.2404542, -1.5371385, -0.4985314}, {-0.9692660, 1.8760108, 0.0415560}, {0.0556434, -0.2040259, 1.0572252}};
     for (int k = 0; k < 3; k++) {
-        rgb[k] = matrix[k][0] * xyz[0] + matrix[k][1] * xyz[1] + matrix[k][2] * xyz[2];
+        rgb[k] = koksma__dot(matrix[k], xyz);
+    }
+}
+
+void koksma__black_body_colour(double kelvin, double rgb[3])
+{
+    const double t = fmin(fmax(kelvin, 1667), 25000), i = 1000 / t;
+    const double x = t < 4000 ? ((-0.2661239 * i - 0.2343589) * i + 0.8776956) * i + 0.179910
+                              : ((-3.0258469 * i + 2.1070379) * i + 0.2226347) * i + 0.240390;
+    const double y = t < 2222   ? ((-1.1063814 * x - 1.34811020) * x + 2.18555832) * x - 0.20219683
+                     : t < 4000 ? ((-0.9549476 * x - 1.37418593) * x + 2.09137015) * x - 0.16748867
+                                : ((3.0817580 * x - 5.87338670) * x + 3.75112997) * x - 0.37001483;
+    to_rgb((const double[3]){x / y, 1, (1 - x - y) / y}, rgb);
+    for (int k = 0; k < 3; k++) {
+        rgb[k] = fmax(rgb[k], 0);
     }
 }
 

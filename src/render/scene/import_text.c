@@ -83,9 +83,12 @@ koksma__open_text koksma__import_text(koksma__text_place place, const char *path
     koksma__import_fail_if(++im->n_files > MOST_INCLUDES, place, "more than %d files are included", MOST_INCLUDES);
     koksma__import_fail_if(!is_below(im->path, full), place,
                            "it includes '%s', which is not below the scene's own folder", path);
+    char **name = koksma__import_add(place, &im->names, &im->n_names, sizeof *name);
+    *name = strdup(path);
+    koksma__import_pass(place, *name ? KOKSMA_OK : koksma__fail_memory(strlen(path)));
     koksma__open_text *text = koksma__import_add(place, &im->texts, &im->n_texts, sizeof *text);
     koksma__import_check(place, read_text(full, &read, &size));
-    *text = (koksma__open_text){(char *)read, size};
+    *text = (koksma__open_text){*name, (char *)read, size};
     koksma__import_hold(place, size);
     koksma__import_spend(place, size / KOKSMA__STEP_TEXT);
     im->scene->hash += koksma__hash(read, size) * im->n_files;

@@ -161,9 +161,7 @@ static const char *type_meant(const reader *r, const node *n, char *text)
    have a default, or a list of values, and another value. */
 static void pass(const reader *r, const node *n)
 {
-    const char *at = row_of(r, n)->parameters;
-    koksma__entry e = {.type = NULL};
-    while (koksma__entry_next(&at, &e)) {
+    for (koksma__entry e = koksma__entries_of(row_of(r, n)); koksma__entry_next(&e);) {
         const node *c = e.without_effect ? find_property(r, n, &e) : NULL;
         const char *value = c ? koksma__xml_attribute(c, "value") : NULL;
         if (c && (!e.otherwise || (value && !strcasecmp(value, "false"))) &&
@@ -398,9 +396,7 @@ static void set_mapping(reader *r, const node *n, koksma__mapping *to)
 /* Fails if an object lacks a property that Mitsuba has no default for. */
 static void check_needed(const reader *r, const node *n)
 {
-    const char *at = row_of(r, n)->parameters;
-    koksma__entry e = {.type = NULL};
-    while (koksma__entry_next(&at, &e)) {
+    for (koksma__entry e = koksma__entries_of(row_of(r, n)); koksma__entry_next(&e);) {
         koksma__import_fail_if(e.is_needed && !find_property(r, n, &e), n->place, "%s '%s': no '%.*s'", n->tag,
                                type_of(n), (int)e.length, e.name);
     }
@@ -513,7 +509,7 @@ static void texture(reader *r, const node *n, koksma__spectrum_use use, koksma__
     case KOKSMA__TEMPERATURE:
         value = number(r, n, "temperature");
         koksma__import_fail_if(!(value > 0), n->place, "a temperature of %g kelvins; it must be above 0", value);
-        koksma__import_black_body(value, out->rgb);
+        koksma__black_body_colour(value, out->rgb);
         koksma__import_unknown(n->place, "a black body is replaced by %s", row->instead);
         break;
     default:
@@ -645,10 +641,9 @@ static int within(reader *r, const node *n, int depth)
 /* Makes a BSDF of the kinds that koksma__import_material has; its colour comes first in its row. */
 static int plain_bsdf(reader *r, const node *n)
 {
-    const char *at = row_of(r, n)->parameters;
+    koksma__entry e = koksma__entries_of(row_of(r, n));
     char name[40];
-    koksma__entry e = {.type = NULL};
-    koksma__entry_next(&at, &e);
+    koksma__entry_next(&e);
     snprintf(name, sizeof name, "%.*s", (int)e.length, e.name);
     koksma__import_material m = {.kind = (unsigned)row_of(r, n)->makes, .colour = colour(r, n, name)};
     const bool is_white = !*m.colour.image && !m.colour.is_checker && m.colour.rgb[0] == 1 && m.colour.rgb[1] == 1 &&
@@ -1242,9 +1237,7 @@ static void judge(reader *r, const node *n)
         REPLACE(n, "%s '%s' is ignored%s", n->tag, type_of(n), TYPE_MEANT(r, n));
         return;
     }
-    const char *at = row->parameters;
-    koksma__entry e = {.type = NULL};
-    while (koksma__entry_next(&at, &e)) {
+    for (koksma__entry e = koksma__entries_of(row); koksma__entry_next(&e);) {
         const node *c = find_property(r, n, &e);
         koksma__xml_mark(c ? c : n, c ? KOKSMA__XML_TAKEN : 0);
     }

@@ -50,10 +50,9 @@ typedef struct koksma__xml_node {
 
 typedef struct koksma__xml {
     koksma__xml_node *nodes; /* the first node is the root */
-    char **files;            /* names of the included files, to which the nodes' `place` points */
     char **defaults;         /* values of the $names */
     koksma__names default_names;
-    size_t n, n_files, n_defaults;
+    size_t n, n_defaults;
 } koksma__xml;
 
 /* Parses an XML text. Errors: MALFORMED (not well-formed; a document type declaration, whose entities could grow

@@ -158,7 +158,7 @@ koksma__mitsuba_colour koksma__mitsuba_colour_read(const node *n)
         need(text && koksma__mitsuba_measure(text, "K", &kelvins) && kelvins > 0, n, "temperature",
              "a temperature in kelvins");
         out.form = KOKSMA__BLACK_BODY;
-        koksma__import_black_body(kelvins, out.rgb);
+        koksma__black_body_colour(kelvins, out.rgb);
     } else if (value && *value == '#' && !is_number) {
         out.form = KOKSMA__THREE_NUMBERS;
         read_hexadecimal(n, value + 1, out.rgb);

@@ -290,13 +290,6 @@ static koksma_status place(builder *build, const koksma__file_placement *from)
                : KOKSMA_OK;
 }
 
-static void transform(const double m[12], const double v[3], double w, double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = m[4 * k] * v[0] + m[4 * k + 1] * v[1] + m[4 * k + 2] * v[2] + w * m[4 * k + 3];
-    }
-}
-
 static bool within(const double v[3], double bound)
 {
     return fabs(v[0]) <= bound && fabs(v[1]) <= bound && fabs(v[2]) <= bound;
@@ -308,9 +301,9 @@ static bool build_camera(builder *build)
     static const double origin[3] = {0, 0, 0}, ahead[3] = {0, 0, -1}, over[3] = {0, 1, 0};
     const double fov = build->file->yfov_rad, *matrix = build->file->camera;
     double eye[3], forward[3], up[3];
-    transform(matrix, origin, 1, eye);
-    transform(matrix, ahead, 0, forward);
-    transform(matrix, over, 0, up);
+    koksma__import_apply(matrix, origin, 1, eye);
+    koksma__import_apply(matrix, ahead, 0, forward);
+    koksma__import_apply(matrix, over, 0, up);
     return within(eye, FAR) && within(forward, FAR) && within(up, FAR) && fov > 2e-4 && fov < 3.1 &&
            koksma__camera_aim(eye, forward, up, fov, &build->scene->camera);
 }
@@ -329,8 +322,8 @@ static koksma_status build_light(builder *build, size_t i)
         to->values[0] = from->outer * 360 / TURN;
         to->values[1] = 1 - from->inner / from->outer;
     }
-    transform(from->matrix, origin, 1, to->centre);
-    transform(from->matrix, ahead, 0, to->normal);
+    koksma__import_apply(from->matrix, origin, 1, to->centre);
+    koksma__import_apply(from->matrix, ahead, 0, to->normal);
     for (int k = 0; k < 3; k++) {
         to->radiance[k] = from->colour[k];
     }
@@ -435,11 +428,7 @@ static void frame_all(koksma_scene *scene, const double centre[3], double radius
 static koksma_status add_ground(koksma_scene *scene, const double centre[3], double low_y, double radius)
 {
     koksma__material *grey = &scene->materials[scene->n_materials];
-    size_t kind = 0;
-    while (strcmp(koksma__shape_kinds[kind]->name, "plane") != 0) {
-        kind++;
-    }
-    koksma__shape plane = {.type = koksma__shape_types[kind],
+    koksma__shape plane = {.type = koksma__own_shape_type("plane"),
                            .centre = {centre[0], low_y - 1e-4 * radius, centre[2]},
                            .normal = {0, 1, 0},
                            .axis_u = {1, 0, 0},
@@ -590,17 +579,10 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
 koksma_status koksma__model_parse(const char *path, koksma__named by, koksma_scene *scene)
 {
     bool has_camera = false;
-    const char *slash = strrchr(path, '/');
-    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
-    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
-    if (!scene->lights || !scene->materials) {
-        return koksma__fail_memory(KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
-    }
-    snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : path);
+    KOKSMA__TRY(koksma__scene_begin(scene, path));
     scene->is_model = true;
     scene->width = 512;
     scene->height = 384;
-    scene->clamp = INFINITY;
     KOKSMA__TRY(read_model(path, by, scene, &has_camera));
     scene->hash += MODEL_REVISION;
     KOKSMA__TRY(complete(scene, has_camera));

@@ -321,10 +321,6 @@ static koksma_status parse_list(const char *name, const field *root, const char 
 
 static koksma_status parse_lists(const char *name, const field *root, koksma_scene *scene)
 {
-    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
-    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
-    KOKSMA__REQUIRE_MEMORY(scene->materials, KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
-    KOKSMA__REQUIRE_MEMORY(scene->lights, KOKSMA__MAX_LIGHTS * sizeof *scene->lights);
     KOKSMA__TRY(parse_list(name, root, "materials", KOKSMA__MAX_MATERIALS, read_material, scene));
     KOKSMA__TRY(parse_list(name, root, "shapes", KOKSMA__MAX_SHAPES, parse_shape, scene));
     return koksma__json_has(root, "lights") ? parse_list(name, root, "lights", KOKSMA__MAX_LIGHTS, parse_light, scene)
@@ -372,11 +368,11 @@ static koksma_status parse_medium(const field *root, koksma_scene *scene)
 static koksma_status parse_root(const char *name, const field *root, koksma_scene *scene)
 {
     const char *title = "", *note;
+    KOKSMA__TRY(koksma__scene_begin(scene, ""));
     KOKSMA__TRY(koksma__json_only(root, KEYS("title", "note", "image", "camera", "background", "ambient", "clamp",
                                              "medium", "materials", "shapes", "lights")));
     KOKSMA__TRY(koksma__json_get_text(root, "title", false, &title));
     snprintf(scene->title, sizeof scene->title, "%s", title);
-    scene->clamp = INFINITY;
     KOKSMA__TRY(koksma__json_get_text(root, "note", false, &note));
     KOKSMA__TRY(parse_image(root, scene));
     KOKSMA__TRY(parse_camera(root, &scene->camera));

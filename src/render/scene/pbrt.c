@@ -335,14 +335,6 @@ static void take_area_light(reader *r)
     koksma__pbrt_emission(&r->values, r->parameters, "L", surface->radiance);
 }
 
-/* Transforms a point (w = 1) or a direction (w = 0) by a matrix. */
-static void move_point(const double m[12], const double p[3], double w, double out[3])
-{
-    for (int k = 0; k < 3; k++) {
-        out[k] = koksma__dot(m + 4 * k, p) + w * m[4 * k + 3];
-    }
-}
-
 /* Scales a light's colour so that it has the power or illuminance that the parameters give. */
 static void scale_light(koksma__pbrt_parameters *p, const char *type, double rgb[3])
 {
@@ -378,7 +370,7 @@ static void take_light(reader *r)
     }
     scale_light(p, type, light.radiance);
     koksma__subtract(to, from, to);
-    move_point(r->now.matrix[0], to, 0, along);
+    koksma__import_apply(r->now.matrix[0], to, 0, along);
     if (around) {
         light.kind = &koksma__light_environment;
         light.visible = true;
@@ -388,7 +380,7 @@ static void take_light(reader *r)
         koksma__import_fail_if(!koksma__import_normalise(light.normal), p->place,
                                "a distant light without a direction");
     } else {
-        move_point(r->now.matrix[0], from, 1, light.centre);
+        koksma__import_apply(r->now.matrix[0], from, 1, light.centre);
     }
     if (spot) {
         const double outer = koksma__pbrt_number(p, "coneangle");
@@ -628,11 +620,7 @@ static void take_include(reader *r)
     koksma__import_fail_if(r->depth == MOST_INCLUDED, r->place, "files include each other more than %d deep",
                            MOST_INCLUDED);
     const koksma__open_text text = koksma__import_text(r->place, r->texts[0]);
-    /* messages about places in the file point to the name, which must therefore be kept after the file is closed */
-    char **name = koksma__import_add(r->place, &r->values.texts, &r->values.n_texts, sizeof *name);
-    *name = strdup(r->texts[0]);
-    koksma__import_pass(r->place, *name ? KOKSMA_OK : koksma__fail_memory(sizeof r->texts[0]));
-    source inner = {.at = text.bytes, .end = text.bytes + text.size, .place = {r->im, *name, 1}};
+    source inner = {.at = text.bytes, .end = text.bytes + text.size, .place = {r->im, text.name, 1}};
     r->depth++;
     read_source(r, &inner);
     r->depth--;

@@ -123,8 +123,7 @@ typedef struct koksma__pbrt_scene {
     koksma__import *im;
     struct koksma__pbrt_named *materials;
     struct koksma__pbrt_named_texture *textures;
-    char **texts; /* names of the files that were read */
-    size_t n_materials, n_textures, n_texts;
+    size_t n_materials, n_textures;
     koksma__names material_names, texture_names[2]; /* textures: of type "spectrum" and of type "float" */
     size_t n_divided;                               /* number of triangles that subdivision made so far */
     double exposure;                                /* factor of all light: what the film makes of radiance */

@@ -228,12 +228,10 @@ static verdict judge(const char *directive, const char *kind, const koksma__pbrt
     koksma__word_list names = {.n = 0};
     *meant = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const char *text = rows[i].parameters;
-        koksma__entry e = {.type = NULL};
         if (!is_of(&rows[i], directive) || !(all || *rows[i].kinds == '*' || has_kind(&rows[i], kind))) {
             continue;
         }
-        while (koksma__entry_next(&text, &e)) {
+        for (koksma__entry e = koksma__entries_of(&rows[i]); koksma__entry_next(&e);) {
             koksma__word_list_add(&names, e.name, e.length, "", "");
             if (!koksma__text_is(e.name, e.length, p->name)) {
                 continue;

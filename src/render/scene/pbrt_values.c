@@ -40,10 +40,7 @@ struct koksma__pbrt_named_texture {
 
 void koksma__pbrt_scene_fini(koksma__pbrt_scene *scene)
 {
-    for (size_t i = 0; i < scene->n_texts; i++) {
-        free(scene->texts[i]);
-    }
-    KOKSMA__FREE(scene->texts, scene->materials, scene->textures);
+    KOKSMA__FREE(scene->materials, scene->textures);
     koksma__names_fini(&scene->material_names);
     koksma__names_fini(&scene->texture_names[0]);
     koksma__names_fini(&scene->texture_names[1]);
@@ -79,7 +76,7 @@ static void named_spectrum(koksma__text_place place, const char *name, koksma__s
     char metal[16] = "";
     grey(1, rgb);
     if (use == KOKSMA__EMISSION && !strcmp(name, "stdillum-A")) {
-        koksma__import_black_body(2856, rgb);
+        koksma__black_body_colour(2856, rgb);
     } else if (use != KOKSMA__EMISSION || strcmp(name, "stdillum-D65") != 0) {
         if (!strncmp(name, "metal-", 6)) {
             snprintf(metal, sizeof metal, "%.*s", (int)strcspn(name + 6, "-"), name + 6);
@@ -124,7 +121,7 @@ static void colour_of(koksma__pbrt_scene *scene, koksma__text_place place, const
         /* in pbrt such a light is NaN everywhere */
         koksma__import_fail_if(!(p->numbers[0] > 0), place, "%s: a temperature of %g kelvins; it must be above 0",
                                p->name, p->numbers[0]);
-        koksma__import_black_body(p->numbers[0], out->rgb);
+        koksma__black_body_colour(p->numbers[0], out->rgb);
     } else if (!strcmp(p->type, "spectrum") && p->n) {
         sampled(place, p->numbers, p->n, use, out->rgb);
     } else {
@@ -497,8 +494,8 @@ static int mix_materials(koksma__pbrt_scene *scene, koksma__pbrt_parameters *p)
 int koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, koksma__pbrt_parameters *p)
 {
     const koksma__plugin *found = koksma__plugin_find(&koksma__pbrt_plugins, "Material", *type ? type : "none");
-    const char *prefix = strcmp(type, "coatedconductor") ? "" : "conductor.", *row = found->parameters;
-    koksma__entry first = {.type = NULL};
+    const char *prefix = strcmp(type, "coatedconductor") ? "" : "conductor.";
+    koksma__entry first = koksma__entries_of(found);
     koksma__import_material m = {.kind = (unsigned)found->makes, .ior = 1.5};
     if (!strcmp(type, "mix")) {
         return mix_materials(scene, p);
@@ -514,7 +511,7 @@ int koksma__pbrt_material(koksma__pbrt_scene *scene, const char *type, koksma__p
         metal(scene, p, prefix, &m);
     } else if (m.kind != KOKSMA__GLASS) { /* the colour comes first in its row */
         char name[40] = "";
-        if (koksma__entry_next(&row, &first) && !strncmp(first.type, "colour ", 7)) {
+        if (koksma__entry_next(&first) && !strncmp(first.type, "colour ", 7)) {
             snprintf(name, sizeof name, "%.*s", (int)first.length, first.name);
         }
         m.colour = read_colour(scene, p, name, 0.5, KOKSMA__REFLECTANCE, false);

@@ -36,9 +36,9 @@ static bool is_for(const koksma__plugin *row, const char *of, const char *kind)
     return !strcmp(row->of, of) && koksma__lists(row->kinds, strlen(row->kinds), ' ', kind);
 }
 
-bool koksma__entry_next(const char **text, koksma__entry *e)
+bool koksma__entry_next(koksma__entry *e)
 {
-    const char *word = *text + strspn(*text, " ");
+    const char *word = e->rest + strspn(e->rest, " ");
     bool is_type = !e->type;
     if (*word == ';') {
         word += 1 + strspn(word + 1, " ");
@@ -67,7 +67,7 @@ bool koksma__entry_next(const char **text, koksma__entry *e)
     e->otherwise = *word == ':' ? word + 1 : NULL;
     e->values = *word == '=' ? word + 1 : NULL;
     e->values_length = e->values ? rest - 1 : 0;
-    *text = word + rest;
+    e->rest = word + rest;
     return true;
 }
 
@@ -97,8 +97,7 @@ const char *koksma__kind_meant(const koksma__plugins *all, const char *of, const
 const char *koksma__parameter_meant(const koksma__plugin *row, const char *name, char *text)
 {
     koksma__word_list names = {.n = 0};
-    koksma__entry e = {.type = NULL};
-    for (const char *at = row->parameters; koksma__entry_next(&at, &e);) {
+    for (koksma__entry e = koksma__entries_of(row); koksma__entry_next(&e);) {
         koksma__word_list_add(&names, e.name, e.length, "", "");
     }
     return koksma__or_meant(koksma__word_list_closest(&names, name), text);
@@ -106,9 +105,8 @@ const char *koksma__parameter_meant(const koksma__plugin *row, const char *name,
 
 bool koksma__row_entry(const koksma__plugin *row, const char *name, koksma__entry *out)
 {
-    const char *text = row->parameters;
-    *out = (koksma__entry){.type = NULL};
-    while (koksma__entry_next(&text, out)) {
+    *out = koksma__entries_of(row);
+    while (koksma__entry_next(out)) {
         if (koksma__text_is(out->name, out->length, name)) {
             return true;
         }

@@ -86,6 +86,17 @@ static koksma_status refuse_unknown(koksma_scene **out)
                         out);
 }
 
+koksma_status koksma__scene_begin(koksma_scene *scene, const char *title)
+{
+    const char *slash = strrchr(title, '/');
+    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
+    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
+    KOKSMA__REQUIRE_MEMORY(scene->lights && scene->materials, KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
+    snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : title);
+    scene->clamp = INFINITY;
+    return KOKSMA_OK;
+}
+
 /* ---- Scenes of other renderers: the ending of the file's name selects the reader -------------------------- */
 
 /* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
@@ -122,16 +133,9 @@ static koksma_status check_format(koksma_status status, const char *as, const ch
 
 static koksma_status read_import_text(const char *path, const char *text, size_t size, koksma_scene *scene)
 {
-    const char *slash = strrchr(path, '/');
     koksma__import im = {.scene = scene, .path = path, .n_files = 1, .held = size};
-    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
-    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
-    if (!scene->lights || !scene->materials) {
-        return koksma__fail_memory(KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
-    }
-    snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : path);
+    KOKSMA__TRY(koksma__scene_begin(scene, path));
     scene->is_model = true;
-    scene->clamp = INFINITY;
     scene->hash = koksma__hash(text, size) + READER_REVISION;
     const koksma_status status = (is_pbrt(path) ? koksma__pbrt_read : koksma__mitsuba_read)(&im, text, size);
     koksma__import_fini(&im);

@@ -23,13 +23,10 @@ void koksma__xml_fini(koksma__xml *xml)
     for (size_t i = 0; i < xml->n; i++) {
         free(xml->nodes[i].attributes);
     }
-    for (size_t i = 0; i < xml->n_files; i++) {
-        free(xml->files[i]);
-    }
     for (size_t i = 0; i < xml->n_defaults; i++) {
         free(xml->defaults[i]);
     }
-    KOKSMA__FREE(xml->nodes, xml->files, xml->defaults);
+    KOKSMA__FREE(xml->nodes, xml->defaults);
     koksma__names_fini(&xml->default_names);
 }
 
@@ -165,15 +162,6 @@ static void add_text(reading *r, const char *value)
     r->texts[r->n_texts++] = 0;
 }
 
-/* Adds a copy of a text to a list. */
-static char *keep(koksma__text_place place, const char *text, char ***list, size_t *n)
-{
-    char **to = koksma__import_add(place, list, n, sizeof *to);
-    *to = strdup(text);
-    koksma__import_pass(place, *to ? KOKSMA_OK : koksma__fail_memory(strlen(text)));
-    return *to;
-}
-
 static void add_default(reading *r, const koksma__xml_node *node)
 {
     const char *name = koksma__xml_attribute(node, "name"), *value = koksma__xml_attribute(node, "value");
@@ -181,7 +169,9 @@ static void add_default(reading *r, const koksma__xml_node *node)
     size_t index;
     if (name && value && !koksma__names_find(&to->default_names, name, strlen(name), &index)) {
         koksma__import_hold(node->place, strlen(value) + KOKSMA__HELD_WITH_NAME);
-        keep(node->place, value, &to->defaults, &to->n_defaults);
+        char **kept = koksma__import_add(node->place, &to->defaults, &to->n_defaults, sizeof *kept);
+        *kept = strdup(value);
+        koksma__import_pass(node->place, *kept ? KOKSMA_OK : koksma__fail_memory(strlen(value)));
         koksma__import_put_name(node->place, &to->default_names, name, to->n_defaults - 1);
     }
 }
@@ -189,13 +179,12 @@ static void add_default(reading *r, const koksma__xml_node *node)
 static void include(reading *r, const koksma__xml_node *node, int parent)
 {
     const char *name = koksma__xml_attribute(node, "filename");
-    const koksma__text_place place = node->place;
-    koksma__import_fail_if(!name, place, "<include> without filename");
-    koksma__import_fail_if(r->included == MOST_INCLUDED, place, "files include each other more than %d deep",
+    koksma__import_fail_if(!name, node->place, "<include> without filename");
+    koksma__import_fail_if(r->included == MOST_INCLUDED, node->place, "files include each other more than %d deep",
                            MOST_INCLUDED);
-    name = keep(place, name, &r->xml->files, &r->xml->n_files);
-    const koksma__open_text text = koksma__import_text(place, name);
-    koksma__import_pass(place, read_text(r->im, r->xml, name, text.bytes, text.size, parent, r->included + 1));
+    const koksma__open_text text = koksma__import_text(node->place, name);
+    koksma__import_pass(node->place,
+                        read_text(r->im, r->xml, text.name, text.bytes, text.size, parent, r->included + 1));
     koksma__import_text_close(r->im);
 }
 
