@@ -41,20 +41,45 @@ void claim_ANY_N(const koksma_spec *spec, const koksma_points *points, uint64_t 
     (void)spec, (void)points, (void)seed; /* the walk fails on a refusal */
 }
 
+/* Fails unless, for n = m^dim, point i is in cell i, the last coordinate changing fastest; centred: in its middle half. */
+static void check_order(const koksma_spec *spec, const koksma_points *points, bool centred)
+{
+    const size_t m = root_of(points->n, points->dim);
+    for (size_t i = 0; i < points->n && m; i++) {
+        size_t rest = i;
+        for (int k = points->dim - 1; k >= 0; k--, rest /= m) {
+            const double x = points->xs[i * (size_t)points->dim + (size_t)k],
+                         place = x * (double)m - (double)(rest % m);
+            if (centred ? place < 0.25 - 1e-6 || place > 0.75 + 1e-6 : stratum(x, m) != rest % m) {
+                fail_claim(spec, points, "point %zu is not in %s its cell", i, centred ? "the middle half of" : "");
+            }
+        }
+    }
+}
+
 /* stratified: for n = m^dim, each of the m^dim cells has one point; the points are in the order of the cells, in
    which the last coordinate changes fastest. */
 void claim_STRATIFIED(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    const size_t m = root_of(points->n, points->dim);
-    for (size_t i = 0; i < points->n && m; i++) {
-        size_t rest = i;
-        for (int k = points->dim - 1; k >= 0; k--, rest /= m) {
-            const double x = points->xs[i * (size_t)points->dim + (size_t)k];
-            if (stratum(x, m) != rest % m) {
-                fail_claim(spec, points, "point %zu is not in its cell", i);
-            }
+    check_order(spec, points, false);
+}
+
+/* Fails unless each projection to `count` coordinates, of which `chosen` are in use, has one point in each cell of a grid
+   of s cells a side. */
+static void check_cells(const koksma_spec *spec, const koksma_points *points, size_t s, int count, int *use,
+                        int chosen)
+{
+    const size_t sides[3] = {s, s, s};
+    if (chosen == count) {
+        if (!one_in_each(points, points->n, use, sides, count)) {
+            fail_claim(spec, points, "coordinates %d.. do not have one point in each of %zu^%d cells", use[count - 1],
+                       s, count);
         }
+        return;
+    }
+    for (use[chosen] = 0; use[chosen] < (chosen ? use[chosen - 1] : points->dim); use[chosen]++) {
+        check_cells(spec, points, s, count, use, chosen + 1);
     }
 }
 
@@ -62,11 +87,7 @@ void claim_STRATIFIED(const koksma_spec *spec, const koksma_points *points, uint
 void claim_LATIN(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    for (int k = 0; k < points->dim; k++) {
-        if (!one_in_each(points, points->n, &k, &points->n, 1)) {
-            fail_claim(spec, points, "coordinate %d is not Latin", k);
-        }
-    }
+    check_cells(spec, points, points->n, 1, (int[3]){0}, 0);
 }
 
 /* unbiased: for every box B, the expected fraction of the points in B is the volume of B. */
@@ -91,21 +112,11 @@ void claim_MIN_DISTANCE(const koksma_spec *spec, const koksma_points *points, ui
     }
 }
 
-/* centred: on each axis, each point lies in the middle half of its stratum (patterns that also claim `stratified`).
-   */
+/* centred: on each axis, each point lies in the middle half of its stratum (patterns that also claim `stratified`). */
 void claim_CENTRED(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    const size_t m = root_of(points->n, points->dim);
-    for (size_t i = 0; i < points->n && m; i++) {
-        size_t rest = i;
-        for (int k = points->dim - 1; k >= 0; k--, rest /= m) {
-            const double place = points->xs[i * (size_t)points->dim + (size_t)k] * (double)m - (double)(rest % m);
-            if (place < 0.25 - 1e-6 || place > 0.75 + 1e-6) {
-                fail_claim(spec, points, "point %zu is outside of the middle half of its cell", i);
-            }
-        }
-    }
+    check_order(spec, points, true);
 }
 
 /* grid: in 2D with n = m^2, each of the m x m cells has one point; the points are in any order. */
@@ -183,36 +194,27 @@ void claim_NET_PREFIXES(const koksma_spec *spec, const koksma_points *points, ui
     }
 }
 
+/* For n = s^strength, each projection to so many coordinates has one point in each cell of s^strength. */
+static void check_array(const koksma_spec *spec, const koksma_points *points, int strength)
+{
+    const size_t s = root_of(points->n, strength);
+    if (s > 1 && param_of(spec, "strength", 2) == strength) {
+        check_cells(spec, points, s, strength, (int[3]){0}, 0);
+    }
+}
+
 /* oa2: for n = s^2, each 2D projection has one point in each of its s x s cells. */
 void claim_OA2(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    const size_t s = root_of(points->n, 2), ms[2] = {s, s};
-    for (int a = 0; a < points->dim && s > 1 && param_of(spec, "strength", 2) == 2; a++) {
-        for (int b = 0; b < a; b++) {
-            const int use[2] = {a, b};
-            if (!one_in_each(points, points->n, use, ms, 2)) {
-                fail_claim(spec, points, "coordinates %d and %d do not have one point in each cell", b, a);
-            }
-        }
-    }
+    check_array(spec, points, 2);
 }
 
 /* oa3: for n = s^3 and strength=3, each 3D projection has one point in each of its s x s x s cells. */
 void claim_OA3(const koksma_spec *spec, const koksma_points *points, uint64_t seed)
 {
     (void)seed;
-    const size_t s = root_of(points->n, 3), ms[3] = {s, s, s};
-    for (int a = 0; a < points->dim && s > 1 && param_of(spec, "strength", 2) == 3; a++) {
-        for (int b = 0; b < a; b++) {
-            for (int c = 0; c < b; c++) {
-                const int use[3] = {a, b, c};
-                if (!one_in_each(points, points->n, use, ms, 3)) {
-                    fail_claim(spec, points, "coordinates %d, %d and %d lack a cell", c, b, a);
-                }
-            }
-        }
-    }
+    check_array(spec, points, 3);
 }
 
 /* fraction: in 2D on the torus, no two points are closer than the parameter f times the smallest distance in the

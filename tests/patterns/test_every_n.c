@@ -9,29 +9,15 @@
 
 static double measured(const char *measure, const koksma_points *points, size_t n)
 {
-    const koksma_points prefix = {.n = n, .dim = points->dim, .xs = points->xs};
-    koksma_spec spec;
-    koksma_value value;
-    assert_ok(koksma_measure_spec(measure, &spec));
-    assert_ok(koksma_evaluate(&spec, &prefix, NULL, &value));
-    return value.value;
-}
-
-static void make(const char *pattern, size_t n, int dim, koksma_points *points)
-{
-    koksma_spec spec;
-    assert_ok(koksma_pattern_spec(pattern, &spec));
-    assert_ok(koksma_points_init(points, n, dim));
-    assert_ok(koksma_generate(&spec, 0, NULL, points));
+    return test_measure(measure, &(koksma_points){n, points->dim, points->xs}).value;
 }
 
 /* Block b is block 0 shifted by b (1/g, 1/g^2, ..) on the torus, g^(dim+1) = g + 1. */
 TEST_CASE(blocks_are_shifted_by_the_additive_recurrence)
 {
     for (int dim = 2; dim <= 4; dim++) {
-        koksma_points points;
+        koksma_points points = test_points("every-n", 5000, dim, 0);
         double g = 1.3;
-        make("every-n", 5000, dim, &points);
         for (int s = 0; s < 100; s++) {
             g -= (pow(g, dim + 1) - g - 1) / ((dim + 1) * pow(g, dim) - 1);
         }
@@ -49,10 +35,9 @@ TEST_CASE(blocks_are_shifted_by_the_additive_recurrence)
 /* The aim of the search in the plane: the price of being progressive, over n = 8 .. 128. */
 TEST_CASE(prefixes_are_near_the_records)
 {
-    koksma_points points;
+    koksma_points points = test_points("every-n", 128, 2, 0);
     const koksma_record *r;
     double sum = 0, worst = 0, count = 0;
-    make("every-n", 128, 2, &points);
     for (size_t i = 0; (r = koksma_record_at(i)); i++) {
         if (!strcmp(r->measure, "star") && r->dim == 2 && r->n >= 8 && r->n <= 128) {
             const double ratio = measured("star", &points, r->n) / r->value;
@@ -72,11 +57,9 @@ TEST_CASE(prefixes_are_near_the_records)
 TEST_CASE(prefixes_have_less_discrepancy_than_sobol)
 {
     for (int dim = 2; dim <= 4; dim++) {
-        koksma_points points, sobol;
+        koksma_points points = test_points("every-n", 1024, dim, 0), sobol = test_points("sobol", 1024, dim, 0);
         double logs = 0;
         int better = 0, count = 0;
-        make("every-n", 1024, dim, &points);
-        make("sobol", 1024, dim, &sobol);
         for (size_t n = 8; n <= 1024; n += 1 + n / 8, count++) {
             const double ratio = measured("l2-star", &points, n) / measured("l2-star", &sobol, n);
             logs += log(ratio);
