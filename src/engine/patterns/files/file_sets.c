@@ -21,26 +21,31 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "core/status.h"
+
 enum { MOST = 64 };
 
 static const size_t MOST_BYTES = (size_t)64 << 20;
 static const double RACY_S = 0.02;
 
+/* What a set is found by, and what the system says of its file. Both are compared byte by byte: there are no bytes between
+   their members. */
 typedef struct set_key {
     const koksma_pattern *pattern;
     double params[KOKSMA_MAX_PARAMS];
-    uint64_t n, first, count;
-    int dim;
-    dev_t device;
-    ino_t inode;
-    off_t size;
-    struct timespec written, changed;
+    uint64_t n, first, count, dim;
+    char path[KOKSMA_MAX_SPEC];
 } set_key;
+
+typedef struct file_state {
+    uint64_t device, inode, size;
+    int64_t written_s, written_ns, changed_s, changed_ns;
+} file_state;
 
 typedef struct set {
     set_key key;
-    char *path; /* NULL: this place is free */
-    double *xs;
+    file_state file;
+    double *xs;         /* NULL: this place is free */
     atomic_ullong used; /* the time of the last use, in uses of the table */
 } set;
 
@@ -50,37 +55,23 @@ static atomic_ullong uses;
 static _Thread_local bool trusted;
 static pthread_rwlock_t lock = PTHREAD_RWLOCK_INITIALIZER;
 
-static bool same_time(struct timespec a, struct timespec b)
-{
-    return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
-}
-
-/* Returns whether a kept set is the one that is asked for, if its file has not changed. */
-static bool alike(const set *s, const set_key *k, const char *path)
-{
-    return s->path && s->key.pattern == k->pattern && s->key.n == k->n && s->key.first == k->first &&
-           s->key.count == k->count && s->key.dim == k->dim && !memcmp(s->key.params, k->params, sizeof k->params) &&
-           !strcmp(s->path, path);
-}
-
-static bool same_file(const set *s, const set_key *k)
-{
-    return s->key.device == k->device && s->key.inode == k->inode && s->key.size == k->size &&
-           same_time(s->key.written, k->written) && same_time(s->key.changed, k->changed);
-}
-
 static size_t bytes_of(const set_key *k)
 {
     return (size_t)k->count * (size_t)k->dim * sizeof(double);
 }
 
-/* Copies the points of a kept set; returns false if there is none. */
-static bool find(const set_key *k, const char *path, double *xs)
+static bool alike(const set *s, const set_key *k)
+{
+    return s->xs && !memcmp(&s->key, k, sizeof *k);
+}
+
+/* Copies the points of a kept set; returns false if there is none of a file in this state, or in any if that is NULL. */
+static bool find(const set_key *k, const file_state *file, double *xs)
 {
     bool found = false;
     pthread_rwlock_rdlock(&lock);
     for (size_t i = 0; i < MOST && !found; i++) {
-        if (alike(&sets[i], k, path) && (trusted || same_file(&sets[i], k))) {
+        if (alike(&sets[i], k) && (!file || !memcmp(&sets[i].file, file, sizeof *file))) {
             memcpy(xs, sets[i].xs, bytes_of(k));
             atomic_store_explicit(&sets[i].used, ++uses, memory_order_relaxed);
             found = true;
@@ -92,20 +83,17 @@ static bool find(const set_key *k, const char *path, double *xs)
 
 static void drop(set *s)
 {
-    kept_bytes -= s->path ? bytes_of(&s->key) : 0;
-    free(s->path);
+    kept_bytes -= s->xs ? bytes_of(&s->key) : 0;
     free(s->xs);
-    s->path = NULL;
     s->xs = NULL;
-    s->used = 0;
 }
 
 /* Drops the set of a file that has changed. */
-static void drop_changed(const set_key *k, const char *path)
+static void drop_changed(const set_key *k)
 {
     pthread_rwlock_wrlock(&lock);
     for (size_t i = 0; i < MOST; i++) {
-        if (alike(&sets[i], k, path)) {
+        if (alike(&sets[i], k)) {
             drop(&sets[i]);
         }
     }
@@ -125,7 +113,7 @@ static set *make_place(size_t bytes)
     for (;;) { /* ends, as an empty table has place for each set that is kept */
         set *empty = NULL, *oldest = NULL;
         for (size_t i = 0; i < MOST; i++) {
-            if (!sets[i].path) {
+            if (!sets[i].xs) {
                 empty = &sets[i];
             } else if (!oldest || sets[i].used < oldest->used) {
                 oldest = &sets[i];
@@ -139,87 +127,74 @@ static set *make_place(size_t bytes)
 }
 
 /* Keeps a copy of the points. Without memory nothing is kept. */
-static void keep(const set_key *k, const char *path, const double *xs)
+static void keep(const set_key *k, const file_state *file, const double *xs)
 {
-    const size_t bytes = bytes_of(k), length = strlen(path) + 1;
-    char *name = malloc(length);
+    const size_t bytes = bytes_of(k);
     double *copy = malloc(bytes);
-    if (!name || !copy) {
-        free(name);
-        free(copy);
-        return;
+    if (copy) {
+        memcpy(copy, xs, bytes);
+        pthread_rwlock_wrlock(&lock);
+        set *place = make_place(bytes);
+        memcpy(&place->key, k, sizeof *k);
+        memcpy(&place->file, file, sizeof *file);
+        place->xs = copy;
+        place->used = ++uses;
+        kept_bytes += bytes;
+        pthread_rwlock_unlock(&lock);
     }
-    memcpy(name, path, length);
-    memcpy(copy, xs, bytes);
-    pthread_rwlock_wrlock(&lock);
-    set *place = make_place(bytes);
-    place->key = *k;
-    place->path = name;
-    place->xs = copy;
-    place->used = ++uses;
-    kept_bytes += bytes;
-    pthread_rwlock_unlock(&lock);
 }
 
-static set_key key_of(const koksma_pattern *pattern, const koksma_args *args, const koksma_points *out)
-{
-    set_key k = {.pattern = pattern, .n = args->n, .first = args->first, .count = out->n, .dim = out->dim};
-    for (int i = 0; pattern->params && pattern->params[i].name; i++) {
-        k.params[i] = args->params[i];
-    }
-    return k;
-}
-
-/* Adds to a key what the system says of the file; returns false if the path is not that of a plain file. */
-static bool look_at(const char *path, set_key *k)
+/* Reads what the system says of a file; returns false if the path is not that of a plain file. */
+static bool look_at(const char *path, file_state *file)
 {
     struct stat s;
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode)) {
         return false;
     }
-    k->device = s.st_dev;
-    k->inode = s.st_ino;
-    k->size = s.st_size;
-    k->written = s.st_mtim;
-    k->changed = s.st_ctim;
+    *file = (file_state){.device = (uint64_t)s.st_dev,
+                         .inode = (uint64_t)s.st_ino,
+                         .size = (uint64_t)s.st_size,
+                         .written_s = s.st_mtim.tv_sec,
+                         .written_ns = s.st_mtim.tv_nsec,
+                         .changed_s = s.st_ctim.tv_sec,
+                         .changed_ns = s.st_ctim.tv_nsec};
     return true;
 }
 
-static bool is_racy(const set_key *k)
+static bool is_racy(const file_state *file)
 {
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
-    const double age_s = (double)(now.tv_sec - k->written.tv_sec) + 1e-9 * (double)(now.tv_nsec - k->written.tv_nsec);
-    return age_s < RACY_S;
+    return (double)(now.tv_sec - file->written_s) + 1e-9 * (double)(now.tv_nsec - file->written_ns) < RACY_S;
 }
 
 koksma_status koksma__file_points(const koksma_pattern *pattern, uint64_t seed, const koksma_args *args,
                                   koksma_points *out)
 {
-    char path[KOKSMA_MAX_SPEC];
-    const bool family = koksma__reads_points(pattern) && koksma__file_is_family(args->path);
-    const char *name = args->path;
-    if (family) {
-        const koksma_status status = koksma__file_name(args->path, (size_t)args->n, seed, path);
-        if (status) {
-            return status;
-        }
-        name = path;
+    set_key key = {
+        .pattern = pattern, .n = args->n, .first = args->first, .count = out->n, .dim = (uint64_t)out->dim};
+    file_state file;
+    for (int i = 0; pattern->params && pattern->params[i].name; i++) {
+        key.params[i] = args->params[i];
     }
-    set_key key = key_of(pattern, args, out);
+    if (koksma__reads_points(pattern) && koksma__file_is_family(args->path)) {
+        KOKSMA__TRY(koksma__file_name(args->path, (size_t)args->n, seed, key.path));
+    } else {
+        memcpy(key.path, args->path, strlen(args->path));
+    }
     const bool fits = out->n <= MOST_BYTES / sizeof(double) / (size_t)out->dim;
-    if (fits && trusted && find(&key, name, out->xs)) {
+    if (fits && trusted && find(&key, NULL, out->xs)) {
         return KOKSMA_OK;
     }
-    const bool keeps = fits && look_at(name, &key);
-    if (keeps && find(&key, name, out->xs)) {
+    const bool keeps = fits && look_at(key.path, &file);
+    if (keeps && find(&key, &file, out->xs)) {
         return KOKSMA_OK;
     }
-    drop_changed(&key, name);
-    const bool racy = keeps && is_racy(&key);
+    drop_changed(&key);
+    const bool racy = keeps && is_racy(&file);
     const koksma_status status = pattern->generate(seed, args, out);
     if (!status && keeps && !racy) {
-        keep(&key, name, out->xs);
+        keep(&key, &file, out->xs);
     }
     return status;
 }
