@@ -4,6 +4,8 @@
 #define KOKSMA_TESTS_MESHES_H
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <koksma/render.h>
 
@@ -15,6 +17,23 @@ static inline void need_meshes(void)
     if (!koksma_mesh_tracer()) {
         skip();
     }
+}
+
+/* Puts " in place of ', which literals would have to escape; returns the text. */
+static inline char *json_of(char *text)
+{
+    for (char *at = text; (at = strchr(at, '\''));) {
+        *at = '"';
+    }
+    return text;
+}
+
+static inline void write_json(const char *path, const char *text)
+{
+    char *copy = strdup(text);
+    assert_non_null(copy);
+    test_write(path, json_of(copy));
+    free(copy);
 }
 
 /* The picture of a scene, side x side pixels. */

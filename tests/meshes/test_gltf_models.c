@@ -32,12 +32,12 @@ typedef struct model {
     const char *lights;
 } model;
 
-static const char *const plain = "\"pbrMetallicRoughness\": {\"metallicFactor\": 0}";
+static const char *const plain = "'pbrMetallicRoughness': {'metallicFactor': 0}";
 #define TEXTURED(colour, texture)                                                                                    \
-    "\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"baseColorFactor\": " colour                                 \
-    ", \"baseColorTexture\": {\"index\": 0" texture "}}"
-#define LAMP(light) "\"extensions\": {\"KHR_lights_punctual\": {\"light\": " light "}}"
-#define LAMP_AT(light, z) "{\"name\": \"lamp\", \"translation\": [0, 0, " z "], " LAMP(light) "}"
+    "'pbrMetallicRoughness': {'metallicFactor': 0, 'baseColorFactor': " colour                                       \
+    ", 'baseColorTexture': {'index': 0" texture "}}"
+#define LAMP(light) "'extensions': {'KHR_lights_punctual': {'light': " light "}}"
+#define LAMP_AT(light, z) "{'name': 'lamp', 'translation': [0, 0, " z "], " LAMP(light) "}"
 
 static void write_model(const char *path, const model *m)
 {
@@ -49,29 +49,23 @@ static void write_model(const char *path, const model *m)
     memcpy(bytes, square, 176);
     memcpy(bytes + 176, corners, 12);
     test_write_bytes("my square.bin", bytes, sizeof bytes);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file,
-            "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_lights_punctual\", "
-            "\"KHR_texture_transform\"], \"scene\": 0, \"scenes\": [{\"nodes\": [%s]}], \"nodes\": [{\"camera\": 0, "
-            "\"translation\": [0, 0, 3]}, %s], \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [%s]}}, "
-            "\"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.001, \"znear\": 0.1}}], "
-            "\"materials\": [{%s}], \"textures\": [{\"source\": 0}], \"images\": [{\"uri\": \"%s\"}], ",
-            m->roots, m->nodes, m->lights ? m->lights : "{\"type\": \"point\", \"intensity\": 9}", m->material,
-            m->image ? m->image : "texture.pfm");
-    fprintf(file,
-            "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"TEXCOORD_0\": 1%s}, \"indices\": 3, "
-            "\"material\": 0}]}], \"accessors\": ["
-            "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\", \"min\": [-1, -1, 0], "
-            "\"max\": [1, 1, 0]}, {\"bufferView\": 1, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC2\"}, "
-            "{\"bufferView\": 2, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC4\"}, "
-            "{\"bufferView\": 3, \"componentType\": 5123, \"count\": 6, \"type\": \"SCALAR\"}], \"bufferViews\": ["
-            "{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 32}, "
-            "{\"buffer\": 0, \"byteOffset\": 80, \"byteLength\": 64}, "
-            "{\"buffer\": 0, \"byteOffset\": 176, \"byteLength\": 12}], "
-            "\"buffers\": [{\"byteLength\": 188, \"uri\": \"my%%20square.bin\"}]}",
-            m->attributes ? m->attributes : "");
-    fclose(file);
+    char text[8192];
+    snprintf(
+        text, sizeof text,
+        "{'asset': {'version': '2.0'}, 'extensionsUsed': ['KHR_lights_punctual', 'KHR_texture_transform'], 'scene': "
+        "0, 'scenes': [{'nodes': [%s]}], 'nodes': [{'camera': 0, 'translation': [0, 0, 3]}, %s], 'extensions': "
+        "{'KHR_lights_punctual': {'lights': [%s]}}, 'cameras': [{'type': 'perspective', 'perspective': {'yfov': "
+        "0.001, 'znear': 0.1}}], 'materials': [{%s}], 'textures': [{'source': 0}], 'images': [{'uri': '%s'}], "
+        "'meshes': [{'primitives': [{'attributes': {'POSITION': 0, 'TEXCOORD_0': 1%s}, 'indices': 3, 'material': "
+        "0}]}], 'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3', 'min': [-1, -1, "
+        "0], 'max': [1, 1, 0]}, {'bufferView': 1, 'componentType': 5126, 'count': 4, 'type': 'VEC2'}, {'bufferView': "
+        "2, 'componentType': 5126, 'count': 4, 'type': 'VEC4'}, {'bufferView': 3, 'componentType': 5123, 'count': 6, "
+        "'type': 'SCALAR'}], 'bufferViews': [{'buffer': 0, 'byteLength': 48}, {'buffer': 0, 'byteOffset': 48, "
+        "'byteLength': 32}, {'buffer': 0, 'byteOffset': 80, 'byteLength': 64}, {'buffer': 0, 'byteOffset': 176, "
+        "'byteLength': 12}], 'buffers': [{'byteLength': 188, 'uri': 'my%%20square.bin'}]}",
+        m->roots, m->nodes, m->lights ? m->lights : "{'type': 'point', 'intensity': 9}", m->material,
+        m->image ? m->image : "texture.pfm", m->attributes ? m->attributes : "");
+    write_json(path, text);
 }
 
 /* What one sample of the scene sees, and its warnings, each on a line. */
@@ -112,7 +106,7 @@ static void expect(const char *material, const char *image, const char *attribut
 {
     double rgb[3];
     char warnings[2048];
-    write_model("square.gltf", &(model){.nodes = "{\"mesh\": 0}, " LAMP_AT("0", "3"),
+    write_model("square.gltf", &(model){.nodes = "{'mesh': 0}, " LAMP_AT("0", "3"),
                                         .roots = "0, 1, 2",
                                         .material = material,
                                         .attributes = attributes,
@@ -171,15 +165,15 @@ TEST_CASE(names_of_files_are_decoded)
 TEST_CASE(emission_is_multiplied_with_its_texture)
 {
     need_meshes();
-#define GLOW "\"emissiveFactor\": [1, 1, 0.5], \"emissiveTexture\": {\"index\": 0}"
+#define GLOW "'emissiveFactor': [1, 1, 0.5], 'emissiveTexture': {'index': 0}"
     write_image("texture.pfm", 1, (const float[]){0.25f});
     expect(GLOW, NULL, NULL, M_PI / 4, M_PI / 4, M_PI / 8, "");
     write_image("texture.pfm", 4, (const float[]){0, 0.25f, 0.75f, 1});
     expect(GLOW, NULL, NULL, M_PI / 2, M_PI / 2, M_PI / 4, ""); /* the camera sees its middle */
     write_image("texture.pfm", 1, (const float[]){0});
-    expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1, "");
+    expect("'pbrMetallicRoughness': {'metallicFactor': 0}, " GLOW, NULL, NULL, 1, 1, 1, "");
     unlink("texture.pfm");
-    expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, " GLOW, NULL, NULL, 1, 1, 1,
+    expect("'pbrMetallicRoughness': {'metallicFactor': 0}, " GLOW, NULL, NULL, 1, 1, 1,
            "material 0 emits no light, because its emissive texture is missing: texture.pfm: there is no such file");
 }
 
@@ -191,7 +185,7 @@ TEST_CASE(glow_is_sampled_by_its_texture)
     koksma_scene *scene;
     koksma__lights lights;
     write_image("texture.pfm", 4, (const float[]){0, 0, 1, 1});
-    write_model("square.gltf", &(model){.nodes = "{\"mesh\": 0, \"scale\": [0.25, 0.25, 1]}, " LAMP_AT("0", "3"),
+    write_model("square.gltf", &(model){.nodes = "{'mesh': 0, 'scale': [0.25, 0.25, 1]}, " LAMP_AT("0", "3"),
                                         .roots = "0, 1, 2",
                                         .material = GLOW});
     assert_ok(koksma_scene_open("square.gltf", &scene));
@@ -233,18 +227,18 @@ TEST_CASE(textures_are_moved)
     static const struct {
         const char *how;
         double seen;
-    } all[] = {{"\"offset\": [0.25, 0]", 0.75},
-               {"\"offset\": [-0.25, 0.5]", 0.25},
-               {"\"scale\": [0.5, 9]", 0.25},
-               {"\"scale\": [1.5, 1]", 0.75},
-               {"\"rotation\": 1.57079632679, \"scale\": [1, 0.5]", 0.25},
-               {"\"rotation\": -1.57079632679, \"scale\": [1, 0.5]", 0.75}, /* u' = -v' = -1/4 */
-               {"\"rotation\": 1.57079632679, \"scale\": [1, 1.5]", 0.75}};
+    } all[] = {{"'offset': [0.25, 0]", 0.75},
+               {"'offset': [-0.25, 0.5]", 0.25},
+               {"'scale': [0.5, 9]", 0.25},
+               {"'scale': [1.5, 1]", 0.75},
+               {"'rotation': 1.57079632679, 'scale': [1, 0.5]", 0.25},
+               {"'rotation': -1.57079632679, 'scale': [1, 0.5]", 0.75}, /* u' = -v' = -1/4 */
+               {"'rotation': 1.57079632679, 'scale': [1, 1.5]", 0.75}};
     write_image("texture.pfm", 2, (const float[]){0.25f, 0.75f});
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         char material[512];
         snprintf(material, sizeof material,
-                 TEXTURED("[1, 1, 1, 1]", ", \"extensions\": {\"KHR_texture_transform\": {%s}}"), all[i].how);
+                 TEXTURED("[1, 1, 1, 1]", ", 'extensions': {'KHR_texture_transform': {%s}}"), all[i].how);
         expect(material, NULL, NULL, all[i].seen, all[i].seen, all[i].seen, "");
     }
     unlink("texture.pfm");
@@ -253,12 +247,11 @@ TEST_CASE(textures_are_moved)
 TEST_CASE(alpha_below_the_cutoff_is_not_there)
 {
     need_meshes();
-    static const char *const materials[] = {TEXTURED("[1, 1, 1, 0.4]", "") ", \"alphaMode\": \"MASK\"",
-                                            TEXTURED("[1, 1, 1, 0.6]", "") ", \"alphaMode\": \"MASK\"",
-                                            TEXTURED("[1, 1, 1, 0.6]", "") ", \"alphaMode\": \"MASK\", "
-                                                                           "\"alphaCutoff\": 0.7",
-                                            TEXTURED("[1, 1, 1, 0]", "") ", \"alphaMode\": \"BLEND\"",
-                                            TEXTURED("[1, 1, 1, 0.1]", "")};
+    static const char *const materials[] = {
+        TEXTURED("[1, 1, 1, 0.4]", "") ", 'alphaMode': 'MASK'",
+        TEXTURED("[1, 1, 1, 0.6]", "") ", 'alphaMode': 'MASK'",
+        TEXTURED("[1, 1, 1, 0.6]", "") ", 'alphaMode': 'MASK', 'alphaCutoff': 0.7",
+        TEXTURED("[1, 1, 1, 0]", "") ", 'alphaMode': 'BLEND'", TEXTURED("[1, 1, 1, 0.1]", "")};
     static const bool there[] = {false, true, false, false, true};
     write_image("texture.pfm", 1, (const float[]){0.5f});
     for (size_t i = 0; i < sizeof there / sizeof *there; i++) {
@@ -266,7 +259,7 @@ TEST_CASE(alpha_below_the_cutoff_is_not_there)
         char warnings[2048];
         write_model(
             "square.gltf",
-            &(model){.nodes = "{\"mesh\": 0}, " LAMP_AT("0", "3"), .roots = "0, 1, 2", .material = materials[i]});
+            &(model){.nodes = "{'mesh': 0}, " LAMP_AT("0", "3"), .roots = "0, 1, 2", .material = materials[i]});
         look("square.gltf", rgb, warnings, sizeof warnings);
         assert_near(rgb[0] * M_PI, there[i] ? seen(0.5, 1) : 0, 1e-5);
         assert_string_equal(warnings, "");
@@ -280,15 +273,15 @@ TEST_CASE(what_is_not_read_is_said)
 {
     need_meshes();
     write_image("texture.pfm", 1, (const float[]){0.5f});
-    expect(TEXTURED("[1, 1, 1, 1]", ", \"texCoord\": 1"), NULL, ", \"TEXCOORD_1\": 1", 0.5, 0.5, 0.5, "");
-    expect(TEXTURED("[1, 1, 1, 1]", "") ", \"normalTexture\": {\"index\": 0, \"scale\": 0, \"texCoord\": 1}", NULL,
-           NULL, 0.5, 0.5, 0.5, "textures' own texture coordinates (1) are not read");
+    expect(TEXTURED("[1, 1, 1, 1]", ", 'texCoord': 1"), NULL, ", 'TEXCOORD_1': 1", 0.5, 0.5, 0.5, "");
+    expect(TEXTURED("[1, 1, 1, 1]", "") ", 'normalTexture': {'index': 0, 'scale': 0, 'texCoord': 1}", NULL, NULL, 0.5,
+           0.5, 0.5, "textures' own texture coordinates (1) are not read");
     expect(TEXTURED("[1, 1, 1, 0.5]", ""), NULL, NULL, 0.5, 0.5, 0.5, "");
-    expect(plain, NULL, ", \"COLOR_0\": 2", 1, 0, 0, "");
+    expect(plain, NULL, ", 'COLOR_0': 2", 1, 0, 0, "");
     unlink("texture.pfm");
-    expect("\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"metallicRoughnessTexture\": {\"index\": 0}}", NULL,
-           NULL, 1, 1, 1, "material 0 loses its texture of metal and roughness: texture.pfm: there is no such file");
-    expect(TEXTURED("[1, 1, 1, 1]", "") ", \"normalTexture\": {\"index\": 0}", NULL, NULL, 1, 1, 1,
+    expect("'pbrMetallicRoughness': {'metallicFactor': 0, 'metallicRoughnessTexture': {'index': 0}}", NULL, NULL, 1,
+           1, 1, "material 0 loses its texture of metal and roughness: texture.pfm: there is no such file");
+    expect(TEXTURED("[1, 1, 1, 1]", "") ", 'normalTexture': {'index': 0}", NULL, NULL, 1, 1, 1,
            "material 0 loses its texture of normals: texture.pfm: there is no such file");
 }
 
@@ -307,11 +300,10 @@ static double lit(const char *nodes, const char *roots, const char *material, co
 TEST_CASE(every_node_with_a_light_has_one)
 {
     need_meshes();
-#define SQUARE "{\"mesh\": 0}, "
-#define DARK "{\"type\": \"directional\", \"intensity\": 0}" /* so that there is no studio */
-    const char *two =
-        "{\"type\": \"point\", \"intensity\": 9}, {\"type\": \"spot\", \"spot\": {}, \"intensity\": 4.5}";
-    const char *sun = "{\"type\": \"directional\", \"intensity\": 2, \"color\": [0.5, 1, 1]}";
+#define SQUARE "{'mesh': 0}, "
+#define DARK "{'type': 'directional', 'intensity': 0}" /* so that there is no studio */
+    const char *two = "{'type': 'point', 'intensity': 9}, {'type': 'spot', 'spot': {}, 'intensity': 4.5}";
+    const char *sun = "{'type': 'directional', 'intensity': 2, 'color': [0.5, 1, 1]}";
     assert_near(lit(SQUARE LAMP_AT("0", "3"), "0, 1, 2", plain, NULL), 1 * seen(1, 1), 1e-5);
     assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2, 3", plain, NULL), 5 * seen(1, 1),
                 1e-5);
@@ -321,31 +313,28 @@ TEST_CASE(every_node_with_a_light_has_one)
     /* not in the scene */
     assert_near(lit(SQUARE LAMP_AT("0", "3") ", " LAMP_AT("0", "1.5"), "0, 1, 2", plain, NULL), 1 * seen(1, 1), 1e-5);
     /* below others: z = 1 + 2 x 1, and turned about y by a half circle */
+    assert_near(lit(SQUARE LAMP_AT("0", "1") ", {'children': [2], 'translation': [0, 0, 1], 'scale': [2, 2, 2]}",
+                    "0, 1, 3", plain, NULL),
+                seen(1, 1), 1e-5);
     assert_near(
-        lit(SQUARE LAMP_AT("0", "1") ", {\"children\": [2], \"translation\": [0, 0, 1], \"scale\": [2, 2, 2]}",
-            "0, 1, 3", plain, NULL),
-        seen(1, 1), 1e-5);
-    assert_near(
-        lit(SQUARE LAMP_AT("0", "-1.5") ", {\"children\": [2], \"rotation\": [0, 1, 0, 0]}", "0, 1, 3", plain, NULL),
+        lit(SQUARE LAMP_AT("0", "-1.5") ", {'children': [2], 'rotation': [0, 1, 0, 0]}", "0, 1, 3", plain, NULL),
         4 * seen(1, 1), 1e-5);
-    assert_near(lit(SQUARE "{\"matrix\": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1.5, 1], " LAMP("0") "}",
-                    "0, 1, 2", plain, NULL),
+    assert_near(lit(SQUARE "{'matrix': [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1.5, 1], " LAMP("0") "}", "0, 1, 2",
+                    plain, NULL),
                 4 * seen(1, 1), 1e-5);
     /* a spot of 45 degrees whose axis is 30 degrees off, about x: the square of a linear fall in the cosine */
     const double fall = (cos(M_PI / 6) - cos(M_PI / 4)) / (1 - cos(M_PI / 4));
-    assert_near(lit(SQUARE
-                    "{\"translation\": [0, 0, 3], \"rotation\": [0.25881905, 0, 0, 0.96592583], " LAMP("0") "}",
-                    "0, 1, 2", plain, "{\"type\": \"spot\", \"spot\": {}, \"intensity\": 9}"),
+    assert_near(lit(SQUARE "{'translation': [0, 0, 3], 'rotation': [0.25881905, 0, 0, 0.96592583], " LAMP("0") "}",
+                    "0, 1, 2", plain, "{'type': 'spot', 'spot': {}, 'intensity': 9}"),
                 fall * fall * seen(1, 1), 1e-3); /* the camera sees a pixel */
     /* down the node's -z: from the front, and turned by 60 degrees about x */
     assert_near(lit(SQUARE "{" LAMP("0") "}", "0, 1, 2", plain, sun), seen(1, 1), 1e-5);
-    assert_near(lit(SQUARE "{\"rotation\": [0.5, 0, 0, 0.8660254], " LAMP("0") "}", "0, 1, 2", plain, sun),
+    assert_near(lit(SQUARE "{'rotation': [0.5, 0, 0, 0.8660254], " LAMP("0") "}", "0, 1, 2", plain, sun),
                 seen(1, 0.5), 1e-5);
     /* and every node with a camera: from the back where the scene has not the one in front */
-    const char *behind =
-        SQUARE "{\"camera\": 0, \"translation\": [0, 0, -3], \"rotation\": [0, 1, 0, 0]}, {" LAMP("0") "}";
-    assert_near(lit(behind, "0, 1, 2, 3", "\"emissiveFactor\": [1, 1, 1]", DARK), M_PI, 1e-5);
-    assert_near(lit(behind, "1, 2, 3", "\"emissiveFactor\": [1, 1, 1]", DARK), 0, 0);
+    const char *behind = SQUARE "{'camera': 0, 'translation': [0, 0, -3], 'rotation': [0, 1, 0, 0]}, {" LAMP("0") "}";
+    assert_near(lit(behind, "0, 1, 2, 3", "'emissiveFactor': [1, 1, 1]", DARK), M_PI, 1e-5);
+    assert_near(lit(behind, "1, 2, 3", "'emissiveFactor': [1, 1, 1]", DARK), 0, 0);
     /* a light that isn't there */
     koksma_scene *scene;
     write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("1", "3"), .roots = "0, 1, 2", .material = plain});
@@ -364,7 +353,7 @@ TEST_CASE(bright_lights_are_exposed)
     write_model("lit.gltf", &(model){.nodes = SQUARE LAMP_AT("0", "3"),
                                      .roots = "0, 1, 2",
                                      .material = plain,
-                                     .lights = "{\"type\": \"point\", \"intensity\": 90000}"});
+                                     .lights = "{'type': 'point', 'intensity': 90000}"});
     look("lit.gltf", rgb, warnings, sizeof warnings);
     assert_near(rgb[0], seen(1, 1), 1e-4);
     assert_string_equal(warnings, "the lights at nodes are too bright: all are divided by 3183\n");
@@ -380,16 +369,15 @@ TEST_CASE(mirrored_squares_glow_in_front)
     static const double seen[] = {M_PI, M_PI, M_PI, M_PI, 0};
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         char nodes[256], json[512];
-        snprintf(nodes, sizeof nodes,
-                 "{\"mesh\": 0, \"scale\": [%s]}, {\"mesh\": 0, \"translation\": [8, 0, 0]}, {%s}", scales[i],
-                 LAMP("0"));
-        assert_near(lit(nodes, "0, 1, 2, 3", "\"emissiveFactor\": [1, 1, 1]", DARK), seen[i], 1e-5);
+        snprintf(nodes, sizeof nodes, "{'mesh': 0, 'scale': [%s]}, {'mesh': 0, 'translation': [8, 0, 0]}, {%s}",
+                 scales[i], LAMP("0"));
+        assert_near(lit(nodes, "0, 1, 2, 3", "'emissiveFactor': [1, 1, 1]", DARK), seen[i], 1e-5);
         /* the same as a mesh of a scene */
         write_model("lit.gltf", &(model){.nodes = nodes, .roots = "0, 1, 2", .material = plain});
         snprintf(json, sizeof json,
-                 "{\"camera\": {\"eye\": [0, 0, 3], \"target\": [0, 0, 0], \"fov_deg\": 0.1}, \"materials\": [], "
-                 "\"shapes\": [{\"kind\": \"mesh\", \"file\": \"lit.gltf\", \"emission\": 1}]}");
-        test_write_bytes("lit.json", json, strlen(json));
+                 "{'camera': {'eye': [0, 0, 3], 'target': [0, 0, 0], 'fov_deg': 0.1}, 'materials': [], 'shapes': "
+                 "[{'kind': 'mesh', 'file': 'lit.gltf', 'emission': 1}]}");
+        write_json("lit.json", json);
         double rgb[3];
         char warnings[2048];
         look("./lit.json", rgb, warnings, sizeof warnings);
@@ -410,34 +398,33 @@ TEST_CASE(backs_are_seen_as_the_file_says)
         const char *node;
         bool front;
     } nodes[] = {{"", true},
-                 {", \"scale\": [1, 1, -1]", false},
-                 {", \"scale\": [-1, 1, -1]", false},
-                 {", \"scale\": [-1, -1, -1]", false},
-                 {", \"rotation\": [0, 1, 0, 0]", false},
-                 {", \"scale\": [-1, 1, 1], \"rotation\": [0, 1, 0, 0]", false},
-                 {", \"scale\": [1, 1, -1], \"rotation\": [0, 1, 0, 0]", true},
-                 {", \"scale\": [-2, 1, 1]", true}};
+                 {", 'scale': [1, 1, -1]", false},
+                 {", 'scale': [-1, 1, -1]", false},
+                 {", 'scale': [-1, -1, -1]", false},
+                 {", 'rotation': [0, 1, 0, 0]", false},
+                 {", 'scale': [-1, 1, 1], 'rotation': [0, 1, 0, 0]", false},
+                 {", 'scale': [1, 1, -1], 'rotation': [0, 1, 0, 0]", true},
+                 {", 'scale': [-2, 1, 1]", true}};
     for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++) {
         for (int two = 0; two < 2; two++) {
             const char *material =
-                two ? "\"emissiveFactor\": [1, 1, 1], \"doubleSided\": true" : "\"emissiveFactor\": [1, 1, 1]";
+                two ? "'emissiveFactor': [1, 1, 1], 'doubleSided': true" : "'emissiveFactor': [1, 1, 1]";
             char text[256];
-            snprintf(text, sizeof text, "{\"mesh\": 0%s}, {" LAMP("0") "}", nodes[i].node);
+            snprintf(text, sizeof text, "{'mesh': 0%s}, {" LAMP("0") "}", nodes[i].node);
             assert_near(lit(text, "0, 1, 2", material, DARK), two || nodes[i].front ? M_PI : 0, 1e-5);
-            snprintf(text, sizeof text,
-                     "{\"mesh\": 0%s}, {" LAMP("0") "}, {\"mesh\": 0%s, \"translation\": [9, 0, 0]}", nodes[i].node,
-                     nodes[i].node);
+            snprintf(text, sizeof text, "{'mesh': 0%s}, {" LAMP("0") "}, {'mesh': 0%s, 'translation': [9, 0, 0]}",
+                     nodes[i].node, nodes[i].node);
             assert_near(lit(text, "0, 1, 2, 3", material, DARK), two || nodes[i].front ? M_PI : 0, 1e-5);
         }
     }
     /* the camera, at z = 3, sees a square at 0 through the back of one at 1, which casts its shadow: a light beyond it
        leaves the square at 0 dark, one between them does not */
-#define BETWEEN "{\"mesh\": 0}, {\"mesh\": 0, \"translation\": [0, 0, 1], \"rotation\": [0, 1, 0, 0]}, "
+#define BETWEEN "{'mesh': 0}, {'mesh': 0, 'translation': [0, 0, 1], 'rotation': [0, 1, 0, 0]}, "
     assert_near(lit(BETWEEN LAMP_AT("0", "3"), "0, 1, 2, 3", plain, NULL), 0, 0);
-    assert_near(lit(BETWEEN LAMP_AT("0", "0.6"), "0, 1, 2, 3", plain, "{\"type\": \"point\", \"intensity\": 0.09}"),
+    assert_near(lit(BETWEEN LAMP_AT("0", "0.6"), "0, 1, 2, 3", plain, "{'type': 'point', 'intensity': 0.09}"),
                 0.25 * seen(1, 1), 1e-4);
     assert_near(lit(BETWEEN LAMP_AT("0", "3"), "0, 1, 2, 3",
-                    "\"pbrMetallicRoughness\": {\"metallicFactor\": 0}, \"doubleSided\": true", NULL),
+                    "'pbrMetallicRoughness': {'metallicFactor': 0}, 'doubleSided': true", NULL),
                 9.0 / 4 * seen(1, 1), 1e-4);
 }
 
@@ -452,12 +439,11 @@ TEST_CASE(double_sided_glow_lights_both_sides)
             char nodes[512];
             snprintf(
                 nodes, sizeof nodes,
-                "{\"mesh\": 0, \"scale\": [0.01, 0.01, 0.01]}, {\"mesh\": 0, \"translation\": [0, 0, 4]%s}, {" LAMP(
-                    "0") "}",
-                turned ? ", \"rotation\": [0, 1, 0, 0]" : "");
-            got[two][turned] = lit(
-                nodes, "0, 1, 2, 3",
-                two ? "\"emissiveFactor\": [1, 1, 1], \"doubleSided\": true" : "\"emissiveFactor\": [1, 1, 1]", DARK);
+                "{'mesh': 0, 'scale': [0.01, 0.01, 0.01]}, {'mesh': 0, 'translation': [0, 0, 4]%s}, {" LAMP("0") "}",
+                turned ? ", 'rotation': [0, 1, 0, 0]" : "");
+            got[two][turned] =
+                lit(nodes, "0, 1, 2, 3",
+                    two ? "'emissiveFactor': [1, 1, 1], 'doubleSided': true" : "'emissiveFactor': [1, 1, 1]", DARK);
         }
     }
     assert_near(got[0][0], M_PI, 1e-5); /* the back gives no light: only what the small square emits */
@@ -478,14 +464,13 @@ TEST_CASE(mirrored_normals_stay_outside)
         char text[1024];
         snprintf(
             text, sizeof text,
-            "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, "
-            "\"scale\": [%d, %d, %d], \"translation\": [1, 2, 3]}, {\"mesh\": 0}], \"meshes\": [{\"primitives\": "
-            "[{\"attributes\": {\"POSITION\": 0, \"NORMAL\": 1}, \"mode\": 5}]}], \"accessors\": "
-            "[{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, {\"bufferView\": 0, "
-            "\"byteOffset\": 48, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}], \"bufferViews\": "
-            "[{\"buffer\": 0, \"byteLength\": 96}], \"buffers\": [{\"byteLength\": 96, \"uri\": \"turn.bin\"}]}",
+            "{'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0, 1]}], 'nodes': [{'mesh': 0, 'scale': [%d, %d, "
+            "%d], 'translation': [1, 2, 3]}, {'mesh': 0}], 'meshes': [{'primitives': [{'attributes': {'POSITION': 0, "
+            "'NORMAL': 1}, 'mode': 5}]}], 'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': "
+            "'VEC3'}, {'bufferView': 0, 'byteOffset': 48, 'componentType': 5126, 'count': 4, 'type': 'VEC3'}], "
+            "'bufferViews': [{'buffer': 0, 'byteLength': 96}], 'buffers': [{'byteLength': 96, 'uri': 'turn.bin'}]}",
             x, y, z);
-        test_write_bytes("turn.gltf", text, strlen(text));
+        write_json("turn.gltf", text);
         koksma__mesh one = {0};
         koksma_scene *scene;
         assert_ok(koksma__mesh_read("turn.gltf", KOKSMA__BY_FILE, NULL, &one));

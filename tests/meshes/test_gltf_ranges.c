@@ -17,27 +17,21 @@ enum { POSITIONS = 0, COORDINATES = 48, INDICES_1 = 80, INDICES_2 = 88, INDICES_
 typedef enum container { BESIDE, WITHIN, BINARY, N_CONTAINERS } container;
 
 static const char *const names[N_CONTAINERS] = {"./ranges.gltf", "./ranges.gltf", "./ranges.glb"};
-static const char *const uris[N_CONTAINERS] = {"\"uri\": \"ranges.bin\", ", NULL, ""};
+static const char *const uris[N_CONTAINERS] = {"'uri': 'ranges.bin', ", NULL, ""};
 
 static const char model[] =
-    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 1]}], "
-    "\"nodes\": [{\"camera\": 0}, {\"mesh\": 0}], "
-    "\"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 1, \"znear\": 0.1}}], "
-    "\"meshes\": [{\"primitives\": ["
-    "{\"attributes\": {\"POSITION\": 0, \"TEXCOORD_0\": 1}, \"indices\": 2, \"material\": 0}, "
-    "{\"attributes\": {\"POSITION\": 0, \"TEXCOORD_0\": 1}, \"indices\": 3, \"material\": 0}, "
-    "{\"attributes\": {\"POSITION\": 0, \"TEXCOORD_0\": 1}, \"indices\": 4, \"material\": 0}]}], "
-    "\"materials\": [{\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"baseColorTexture\": {\"index\": 0}}}], "
-    "\"textures\": [{\"source\": 0, \"sampler\": 0}], \"images\": [{\"uri\": \"none.png\"}], \"samplers\": [{}], "
-    "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\"}, "
-    "{\"bufferView\": 1, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC2\"}, "
-    "{\"bufferView\": 2, \"componentType\": 5121, \"count\": 6, \"type\": \"SCALAR\"}, "
-    "{\"bufferView\": 3, \"componentType\": 5123, \"count\": 6, \"type\": \"SCALAR\"}, "
-    "{\"bufferView\": 3, \"byteOffset\": 12, \"componentType\": 5125, \"count\": 6, \"type\": \"SCALAR\"}], "
-    "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 32}, "
-    "{\"buffer\": 0, \"byteOffset\": 80, \"byteLength\": 6}, {\"buffer\": 0, \"byteOffset\": 88, \"byteLength\": "
-    "36}], "
-    "\"buffers\": [{%s\"byteLength\": 124}]}";
+    "{'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0, 1]}], 'nodes': [{'camera': 0}, {'mesh': 0}], "
+    "'cameras': [{'type': 'perspective', 'perspective': {'yfov': 1, 'znear': 0.1}}], 'meshes': [{'primitives': "
+    "[{'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}, 'indices': 2, 'material': 0}, {'attributes': {'POSITION': 0, "
+    "'TEXCOORD_0': 1}, 'indices': 3, 'material': 0}, {'attributes': {'POSITION': 0, 'TEXCOORD_0': 1}, 'indices': 4, "
+    "'material': 0}]}], 'materials': [{'pbrMetallicRoughness': {'metallicFactor': 0, 'baseColorTexture': {'index': "
+    "0}}}], 'textures': [{'source': 0, 'sampler': 0}], 'images': [{'uri': 'none.png'}], 'samplers': [{}], "
+    "'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3'}, {'bufferView': 1, "
+    "'componentType': 5126, 'count': 4, 'type': 'VEC2'}, {'bufferView': 2, 'componentType': 5121, 'count': 6, "
+    "'type': 'SCALAR'}, {'bufferView': 3, 'componentType': 5123, 'count': 6, 'type': 'SCALAR'}, {'bufferView': 3, "
+    "'byteOffset': 12, 'componentType': 5125, 'count': 6, 'type': 'SCALAR'}], 'bufferViews': [{'buffer': 0, "
+    "'byteLength': 48}, {'buffer': 0, 'byteOffset': 48, 'byteLength': 32}, {'buffer': 0, 'byteOffset': 80, "
+    "'byteLength': 6}, {'buffer': 0, 'byteOffset': 88, 'byteLength': 36}], 'buffers': [{%s'byteLength': 124}]}";
 
 static void fill(unsigned char bytes[BYTES])
 {
@@ -75,13 +69,14 @@ static void encode(const unsigned char *bytes, size_t size, char *out)
 static void put_model(container how, const unsigned char *bytes, size_t size, const char *from, const char *to)
 {
     char text[4096], uri[512], changed[4096], binary[8192];
-    strcpy(uri, "\"uri\": \"data:application/octet-stream;base64,");
+    strcpy(uri, "'uri': 'data:application/octet-stream;base64,");
     encode(bytes, size, uri + strlen(uri));
-    strcat(uri, "\", ");
+    strcat(uri, "', ");
     snprintf(text, sizeof text, model, how == WITHIN ? uri : uris[how]);
     const char *at = strstr(text, from);
     assert_non_null(at);
     snprintf(changed, sizeof changed - 4, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+    json_of(changed);
     if (how != BINARY) {
         test_write_bytes("./ranges.bin", bytes, size);
         test_write_bytes(names[how], changed, strlen(changed));
@@ -170,40 +165,38 @@ TEST_CASE(numbers_out_of_range_are_refused)
     static const struct {
         const char *from, *to, *reason;
     } cases[] = {
-        {"\"indices\": 3", "\"indices\": 5", "primitives[1]: indices: there is no accessor 5; the file has 5"},
-        {"\"indices\": 3", "\"indices\": -1", "primitives[1].indices"},
-        {"\"indices\": 3", "\"indices\": 1", "primitives[1]: indices: accessor 1 has VEC2"},
-        {"\"POSITION\": 0", "\"POSITION\": 9", "primitives[0].attributes: POSITION: there is no accessor 9"},
-        {"\"TEXCOORD_0\": 1", "\"TEXCOORD_0\": 9", "TEXCOORD_0: there is no accessor 9"},
-        {"\"material\": 0", "\"material\": 1", "primitives[0]: material: there is no material 1; the file has 1"},
-        {"{\"mesh\": 0}", "{\"mesh\": 1}", "nodes[1]: mesh: there is no mesh 1; the file has 1"},
-        {"{\"mesh\": 0}", "{\"mesh\": 0, \"skin\": 0}", "nodes[1]: skin: there is no skin 0"},
-        {"{\"mesh\": 0}", "{\"mesh\": 0, \"children\": [7]}", "nodes[1].children[0]: 7"},
-        {"\"camera\": 0", "\"camera\": 3", "nodes[0]: camera: there is no camera 3"},
-        {"\"nodes\": [0, 1]", "\"nodes\": [0, 2]", "scenes[0].nodes[1]: 2"},
-        {"\"scene\": 0", "\"scene\": 1", "scene: there is no scene 1; the file has 1"},
-        {"\"index\": 0", "\"index\": 1",
+        {"'indices': 3", "'indices': 5", "primitives[1]: indices: there is no accessor 5; the file has 5"},
+        {"'indices': 3", "'indices': -1", "primitives[1].indices"},
+        {"'indices': 3", "'indices': 1", "primitives[1]: indices: accessor 1 has VEC2"},
+        {"'POSITION': 0", "'POSITION': 9", "primitives[0].attributes: POSITION: there is no accessor 9"},
+        {"'TEXCOORD_0': 1", "'TEXCOORD_0': 9", "TEXCOORD_0: there is no accessor 9"},
+        {"'material': 0", "'material': 1", "primitives[0]: material: there is no material 1; the file has 1"},
+        {"{'mesh': 0}", "{'mesh': 1}", "nodes[1]: mesh: there is no mesh 1; the file has 1"},
+        {"{'mesh': 0}", "{'mesh': 0, 'skin': 0}", "nodes[1]: skin: there is no skin 0"},
+        {"{'mesh': 0}", "{'mesh': 0, 'children': [7]}", "nodes[1].children[0]: 7"},
+        {"'camera': 0", "'camera': 3", "nodes[0]: camera: there is no camera 3"},
+        {"'nodes': [0, 1]", "'nodes': [0, 2]", "scenes[0].nodes[1]: 2"},
+        {"'scene': 0", "'scene': 1", "scene: there is no scene 1; the file has 1"},
+        {"'index': 0", "'index': 1",
          "materials[0].pbrMetallicRoughness.baseColorTexture: index: there is no texture 1"},
-        {"\"pbrM", "\"normalTexture\": {\"index\": 4}, \"pbrM", "normalTexture: index: there is no texture 4"},
-        {"\"pbrM", "\"occlusionTexture\": {\"index\": 4}, \"pbrM", "occlusionTexture: index: there is no texture 4"},
-        {"\"pbrM", "\"emissiveTexture\": {\"index\": 4}, \"pbrM", "emissiveTexture: index: there is no texture 4"},
-        {"\"metallicF", "\"metallicRoughnessTexture\": {\"index\": 4}, \"metallicF", "index: there is no texture 4"},
-        {"\"source\": 0", "\"source\": 1", "textures[0]: source: there is no image 1"},
-        {"\"sampler\": 0", "\"sampler\": 1", "textures[0]: sampler: there is no sampler 1"},
-        {"\"uri\": \"none.png\"", "\"bufferView\": 4, \"mimeType\": \"image/png\"",
+        {"'pbrM", "'normalTexture': {'index': 4}, 'pbrM", "normalTexture: index: there is no texture 4"},
+        {"'pbrM", "'occlusionTexture': {'index': 4}, 'pbrM", "occlusionTexture: index: there is no texture 4"},
+        {"'pbrM", "'emissiveTexture': {'index': 4}, 'pbrM", "emissiveTexture: index: there is no texture 4"},
+        {"'metallicF", "'metallicRoughnessTexture': {'index': 4}, 'metallicF", "index: there is no texture 4"},
+        {"'source': 0", "'source': 1", "textures[0]: source: there is no image 1"},
+        {"'sampler': 0", "'sampler': 1", "textures[0]: sampler: there is no sampler 1"},
+        {"'uri': 'none.png'", "'bufferView': 4, 'mimeType': 'image/png'",
          "images[0]: bufferView: there is no buffer view 4"},
-        {"{\"bufferView\": 2", "{\"bufferView\": 4",
+        {"{'bufferView': 2", "{'bufferView': 4",
          "accessors[2]: bufferView: there is no buffer view 4; the file has 4"},
-        {"\"count\": 6", "\"count\": 7", "accessors[2]: 7 elements of 1 bytes lie beyond a view of 6 bytes"},
-        {"\"byteOffset\": 12", "\"byteOffset\": 16",
-         "accessors[4]: 6 elements of 4 bytes lie beyond a view of 36 bytes"},
-        {"\"count\": 4", "\"count\": 3", "TEXCOORD_0: accessor 1 has 4 elements, but accessor 0 has 3 positions"},
-        {"\"byteOffset\": 88", "\"byteOffset\": 89",
+        {"'count': 6", "'count': 7", "accessors[2]: 7 elements of 1 bytes lie beyond a view of 6 bytes"},
+        {"'byteOffset': 12", "'byteOffset': 16", "accessors[4]: 6 elements of 4 bytes lie beyond a view of 36 bytes"},
+        {"'count': 4", "'count': 3", "TEXCOORD_0: accessor 1 has 4 elements, but accessor 0 has 3 positions"},
+        {"'byteOffset': 88", "'byteOffset': 89",
          "bufferViews[3]: its 36 bytes, from byte 89 on, go beyond the end of a buffer of 124 bytes"},
-        {"\"byteLength\": 36", "\"byteStride\": 256, \"byteLength\": 36",
-         "byteStride is 256; it must be at most 252"},
-        {"{\"buffer\": 0", "{\"buffer\": 1", "bufferViews[0]: buffer: there is no buffer 1; the file has 1"},
-        {"\"byteLength\": 124", "\"byteLength\": 128", "buffers[0]: byteLength is 128, but there are only 124 bytes"},
+        {"'byteLength': 36", "'byteStride': 256, 'byteLength': 36", "byteStride is 256; it must be at most 252"},
+        {"{'buffer': 0", "{'buffer': 1", "bufferViews[0]: buffer: there is no buffer 1; the file has 1"},
+        {"'byteLength': 124", "'byteLength': 128", "buffers[0]: byteLength is 128, but there are only 124 bytes"},
     };
     unsigned char bytes[BYTES];
     fill(bytes);

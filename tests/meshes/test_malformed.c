@@ -7,21 +7,21 @@
 
 #include <koksma/render.h>
 
-#include "test.h"
+#include "meshes.h"
 
-#define CAMERA "\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}"
-#define MATERIAL "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}]"
-#define SHAPE(text) "{" CAMERA "," MATERIAL ", \"shapes\": [" text "]}"
-#define LIGHT(text) "{" CAMERA "," MATERIAL ", \"shapes\": [], \"lights\": [" text "]}"
-#define MADE(text) "{" CAMERA ", \"materials\": [" text "], \"shapes\": []}"
+#define CAMERA "'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}"
+#define MATERIAL "'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0.5}]"
+#define SHAPE(text) "{" CAMERA "," MATERIAL ", 'shapes': [" text "]}"
+#define LIGHT(text) "{" CAMERA "," MATERIAL ", 'shapes': [], 'lights': [" text "]}"
+#define MADE(text) "{" CAMERA ", 'materials': [" text "], 'shapes': []}"
 
 /* glTF: what comes before the accessors, and everything. */
-#define GLTF(text) "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], " text "}"
-#define BUFFER "\"buffers\": [{\"byteLength\": 36, \"uri\": \"data:application/octet-stream;base64,AAAA\"}]"
-#define VIEW "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}]"
-#define ACCESSOR "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}]"
-#define MESH "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}]"
-#define NODE "\"nodes\": [{\"mesh\": 0}]"
+#define GLTF(text) "{'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0]}], " text "}"
+#define BUFFER "'buffers': [{'byteLength': 36, 'uri': 'data:application/octet-stream;base64,AAAA'}]"
+#define VIEW "'bufferViews': [{'buffer': 0, 'byteLength': 36}]"
+#define ACCESSOR "'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3'}]"
+#define MESH "'meshes': [{'primitives': [{'attributes': {'POSITION': 0}}]}]"
+#define NODE "'nodes': [{'mesh': 0}]"
 
 #define PLY(vertices, faces, rest)                                                                                   \
     "ply\nformat ascii 1.0\nelement vertex " vertices "\nproperty float x\nproperty float y\nproperty float z\n"     \
@@ -39,56 +39,52 @@ static const struct {
     {"a.json", "", "line 1"},
     {"a.json", "{", "line 1"},
     {"a.json", "[]", "object"},
-    {"a.json", "{\"camera\": 5}", "camera"},
+    {"a.json", "{'camera': 5}", "camera"},
     {"a.json", "{" CAMERA "}", "materials"},
     {"a.json", "{" CAMERA "," CAMERA "}", "line 1"},
-    {"a.json", SHAPE("{\"kind\": \"cone\", \"material\": \"m\"}"), "no kind 'cone'"},
-    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0], \"radius\": 1, \"material\": \"m\"}"), "3 numbers"},
-    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 0, \"material\": \"m\"}"),
-     "zero radius"},
-    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0, 1e999], \"radius\": 1, \"material\": \"m\"}"), ""},
-    {"a.json", SHAPE("{\"kind\": \"sphere\", \"centre\": [0, 0, NaN], \"radius\": 1, \"material\": \"m\"}"),
-     "line 1"},
-    {"a.json", SHAPE("{\"kind\": \"mesh\", \"material\": \"m\"}"), "'file' is missing"},
-    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \"none.obj\", \"material\": \"m\"}"), "none.obj"},
-    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \"a.txt\", \"material\": \"m\"}"), "a.txt"},
-    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \".\", \"material\": \"m\"}"), ""},
-    {"a.json", SHAPE("{\"kind\": \"mesh\", \"file\": \"/dev/zero\", \"material\": \"m\"}"), "/dev/zero"},
-    {"a.json", SHAPE("{\"kind\": \"instance\", \"of\": \"x\", \"material\": \"m\"}"), "no mesh named 'x'"},
+    {"a.json", SHAPE("{'kind': 'cone', 'material': 'm'}"), "no kind 'cone'"},
+    {"a.json", SHAPE("{'kind': 'sphere', 'centre': [0, 0], 'radius': 1, 'material': 'm'}"), "3 numbers"},
+    {"a.json", SHAPE("{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 0, 'material': 'm'}"), "zero radius"},
+    {"a.json", SHAPE("{'kind': 'sphere', 'centre': [0, 0, 1e999], 'radius': 1, 'material': 'm'}"), ""},
+    {"a.json", SHAPE("{'kind': 'sphere', 'centre': [0, 0, NaN], 'radius': 1, 'material': 'm'}"), "line 1"},
+    {"a.json", SHAPE("{'kind': 'mesh', 'material': 'm'}"), "'file' is missing"},
+    {"a.json", SHAPE("{'kind': 'mesh', 'file': 'none.obj', 'material': 'm'}"), "none.obj"},
+    {"a.json", SHAPE("{'kind': 'mesh', 'file': 'a.txt', 'material': 'm'}"), "a.txt"},
+    {"a.json", SHAPE("{'kind': 'mesh', 'file': '.', 'material': 'm'}"), ""},
+    {"a.json", SHAPE("{'kind': 'mesh', 'file': '/dev/zero', 'material': 'm'}"), "/dev/zero"},
+    {"a.json", SHAPE("{'kind': 'instance', 'of': 'x', 'material': 'm'}"), "no mesh named 'x'"},
     {"a.json",
-     LIGHT("{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"half\": [0, 1], "
-           "\"radiance\": 1}"),
+     LIGHT("{'kind': 'rectangle', 'centre': [0, 0, 0], 'normal': [0, 1, 0], 'half': [0, 1], 'radiance': 1}"),
      "zero area"},
-    {"a.json", LIGHT("{\"kind\": \"environment\", \"image\": \"none.exr\"}"), "none.exr"},
+    {"a.json", LIGHT("{'kind': 'environment', 'image': 'none.exr'}"), "none.exr"},
     {"a.json",
-     LIGHT("{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 0], \"half\": [1, 1], "
-           "\"radiance\": 1}"),
+     LIGHT("{'kind': 'rectangle', 'centre': [0, 0, 0], 'normal': [0, 0, 0], 'half': [1, 1], 'radiance': 1}"),
      "length 0"},
-    {"a.json", MADE("{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": {\"image\": \"none.png\"}}"), "none.png"},
-    {"a.json", MADE("{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": {\"imagine\": 1}}"), "unknown field"},
-    {"a.json", MADE("{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1.5}"), "not in 0 to 1"},
+    {"a.json", MADE("{'name': 'm', 'kind': 'lambert', 'albedo': {'image': 'none.png'}}"), "none.png"},
+    {"a.json", MADE("{'name': 'm', 'kind': 'lambert', 'albedo': {'imagine': 1}}"), "unknown field"},
+    {"a.json", MADE("{'name': 'm', 'kind': 'lambert', 'albedo': 1.5}"), "not in 0 to 1"},
     /* glTF */
     {"a.gltf", "", "empty"},
-    {"a.gltf", "{\"asset\"", "line 1"},
+    {"a.gltf", "{'asset'", "line 1"},
     {"a.gltf", "{}", "asset"},
-    {"a.gltf", "{\"asset\": {\"version\": \"1.0\"}}", "only glTF 2"},
+    {"a.gltf", "{'asset': {'version': '1.0'}}", "only glTF 2"},
     {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH), "node"},
-    {"a.gltf", GLTF("\"buffers\": [{\"byteLength\": 12, \"uri\": \"x.bin\"}]," VIEW "," ACCESSOR "," MESH "," NODE),
+    {"a.gltf", GLTF("'buffers': [{'byteLength': 12, 'uri': 'x.bin'}]," VIEW "," ACCESSOR "," MESH "," NODE),
      "beyond the end of a buffer"},
+    {"a.gltf", GLTF("'buffers': [{'byteLength': 36, 'uri': 'none.bin'}]," VIEW "," ACCESSOR "," MESH "," NODE), ""},
     {"a.gltf",
-     GLTF("\"buffers\": [{\"byteLength\": 36, \"uri\": \"none.bin\"}]," VIEW "," ACCESSOR "," MESH "," NODE), ""},
-    {"a.gltf",
-     GLTF(BUFFER "," VIEW ", \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": "
-                 "1000000, \"type\": \"VEC3\"}]," MESH "," NODE),
+     GLTF(BUFFER "," VIEW
+                 ", 'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 1000000, 'type': 'VEC3'}]," MESH
+                 "," NODE),
      "beyond a view"},
     {"a.gltf",
-     GLTF(BUFFER "," VIEW ", \"accessors\": [{\"componentType\": 5126, \"count\": 99999999999, \"type\": "
-                 "\"VEC3\"}]," MESH "," NODE),
+     GLTF(BUFFER "," VIEW ", 'accessors': [{'componentType': 5126, 'count': 99999999999, 'type': 'VEC3'}]," MESH
+                 "," NODE),
      "count"},
-    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", \"nodes\": [{\"children\": [1]}, {\"children\": [0]}]"),
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", 'nodes': [{'children': [1]}, {'children': [0]}]"),
      "has a parent"},
-    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", \"nodes\": [{\"children\": [7]}]"), "not in 0 to 0"},
-    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH "," NODE ", \"extensionsRequired\": [\"EXT_none\"]"),
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH ", 'nodes': [{'children': [7]}]"), "not in 0 to 0"},
+    {"a.gltf", GLTF(BUFFER "," VIEW "," ACCESSOR "," MESH "," NODE ", 'extensionsRequired': ['EXT_none']"),
      "extension 'EXT_none'"},
     {"a.glb", "glTF\2", "cut short"},
     {"a.glb", "glTF\2...\377\377\377\377\377\377\377\377JSON", ""},
@@ -160,7 +156,7 @@ TEST_CASE(malformed_scenes_and_meshes)
         koksma_scene *scene = NULL;
         snprintf(path, sizeof path, "./bad_%s", cases[i].file);
         snprintf(name, sizeof name, "%zu (%s)", i, cases[i].file);
-        test_write(path, cases[i].text);
+        write_json(path, cases[i].text);
         const koksma_status status = koksma_scene_open(path, &scene);
         look_at_error(name, status, cases[i].reason);
         unlink(path);

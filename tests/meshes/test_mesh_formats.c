@@ -364,18 +364,17 @@ static void write_gltf(const void *bytes, size_t size, const char *nodes, const 
                        const char *accessors, const char *views)
 {
     char text[4096];
-    snprintf(text, sizeof text,
-             "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [%s], \"meshes\": "
-             "[{\"primitives\": "
-             "[{%s}]}], \"accessors\": [%s], \"bufferViews\": [%s], \"buffers\": [{\"byteLength\": %zu, \"uri\": "
-             "\"format.bin\"}]}",
-             nodes, primitive, accessors, views, size);
+    snprintf(
+        text, sizeof text,
+        "{'asset': {'version': '2.0'}, 'scenes': [{'nodes': [0]}], 'nodes': [%s], 'meshes': [{'primitives': "
+        "[{%s}]}], 'accessors': [%s], 'bufferViews': [%s], 'buffers': [{'byteLength': %zu, 'uri': 'format.bin'}]}",
+        nodes, primitive, accessors, views, size);
     test_write_bytes("format.bin", bytes, size);
-    test_write("format.gltf", text);
+    write_json("format.gltf", text);
 }
 
-#define POSITIONS "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 5, \"type\": \"VEC3\"}"
-#define VIEWS "{\"buffer\": 0, \"byteLength\": 60}, {\"buffer\": 0, \"byteOffset\": 60, \"byteLength\": 24}"
+#define POSITIONS "{'bufferView': 0, 'componentType': 5126, 'count': 5, 'type': 'VEC3'}"
+#define VIEWS "{'buffer': 0, 'byteLength': 60}, {'buffer': 0, 'byteOffset': 60, 'byteLength': 24}"
 
 /* Section 3.7.2.1: which vertices make triangles, for each mode and type of index, and without indices. */
 TEST_CASE(modes_of_gltf)
@@ -399,10 +398,10 @@ TEST_CASE(modes_of_gltf)
         for (int k = 0; k < 6; k++) {
             bytes[60 + k * width] = (unsigned char)given[k];
         }
-        snprintf(primitive, sizeof primitive, "\"attributes\": {\"POSITION\": 0}, %s\"mode\": %d",
-                 type ? "\"indices\": 1, " : "", mode);
+        snprintf(primitive, sizeof primitive, "'attributes': {'POSITION': 0}, %s'mode': %d",
+                 type ? "'indices': 1, " : "", mode);
         snprintf(accessors, sizeof accessors,
-                 POSITIONS ", {\"bufferView\": 1, \"componentType\": %d, \"count\": 6, \"type\": \"SCALAR\"}",
+                 POSITIONS ", {'bufferView': 1, 'componentType': %d, 'count': 6, 'type': 'SCALAR'}",
                  type ? type : 5121);
         for (int k = 0; k < modes[i / 4].n; k++) {
             const int at = modes[i / 4].triangles[k];
@@ -410,7 +409,7 @@ TEST_CASE(modes_of_gltf)
                 memcpy(wanted[n++], places[type ? given[at] : at], sizeof *wanted);
             }
         }
-        write_gltf(bytes, sizeof bytes, "{\"mesh\": 0}", primitive, accessors, VIEWS);
+        write_gltf(bytes, sizeof bytes, "{'mesh': 0}", primitive, accessors, VIEWS);
         koksma__mesh mesh = read_mesh("format.gltf", (size_t)n, (const float(*)[3])wanted);
         koksma__mesh_fini(&mesh);
     }
@@ -433,15 +432,13 @@ TEST_CASE(strided_and_normalised_accessors)
             bytes[32 * i + (type == 5121 ? 25 : 26)] = 51;
             bytes[32 * i + 27] = 51; /* v is 51 / 255 = 13107 / 65535 */
         }
-        snprintf(
-            accessors, sizeof accessors,
-            "{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}, {\"bufferView\": 0, "
-            "\"byteOffset\": 12, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\"}, {\"bufferView\": 0, "
-            "\"byteOffset\": 24, \"componentType\": %d, \"normalized\": true, \"count\": 3, \"type\": \"VEC2\"}",
-            type);
-        write_gltf(bytes, sizeof bytes, "{\"mesh\": 0}",
-                   "\"attributes\": {\"POSITION\": 0, \"NORMAL\": 1, \"TEXCOORD_0\": 2}", accessors,
-                   "{\"buffer\": 0, \"byteLength\": 96, \"byteStride\": 32}");
+        snprintf(accessors, sizeof accessors,
+                 "{'bufferView': 0, 'componentType': 5126, 'count': 3, 'type': 'VEC3'}, {'bufferView': 0, "
+                 "'byteOffset': 12, 'componentType': 5126, 'count': 3, 'type': 'VEC3'}, {'bufferView': 0, "
+                 "'byteOffset': 24, 'componentType': %d, 'normalized': true, 'count': 3, 'type': 'VEC2'}",
+                 type);
+        write_gltf(bytes, sizeof bytes, "{'mesh': 0}", "'attributes': {'POSITION': 0, 'NORMAL': 1, 'TEXCOORD_0': 2}",
+                   accessors, "{'buffer': 0, 'byteLength': 96, 'byteStride': 32}");
         koksma__mesh mesh = read_mesh("format.gltf", 3, places);
         assert_memory_equal(mesh.normals, normals, sizeof normals);
         for (size_t i = 0; i < 3; i++) {
@@ -460,11 +457,11 @@ TEST_CASE(nodes_of_gltf_place_meshes)
     static const float places[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 1}};
     /* a quarter turn about z, (x, y) -> (-y, x), of twice the size along x, moved by (1, 2, 3); then mirrored in z */
     static const char *const nodes[] = {
-        "{\"mesh\": 0, \"translation\": [1, 2, 3], \"rotation\": [0, 0, 1, 0], \"scale\": [2, 1, 1]}",
-        "{\"mesh\": 0, \"matrix\": [-2, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]}",
-        ("{\"children\": [1], \"translation\": [1, 2, 3]}, {\"children\": [2], \"rotation\": [0, 0, 1, 0]}, "
-         "{\"mesh\": 0, \"scale\": [2, 1, 1]}"),
-        "{\"mesh\": 0, \"matrix\": [-2, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 1, 2, 3, 1]}"};
+        "{'mesh': 0, 'translation': [1, 2, 3], 'rotation': [0, 0, 1, 0], 'scale': [2, 1, 1]}",
+        "{'mesh': 0, 'matrix': [-2, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]}",
+        ("{'children': [1], 'translation': [1, 2, 3]}, {'children': [2], 'rotation': [0, 0, 1, 0]}, {'mesh': 0, "
+         "'scale': [2, 1, 1]}"),
+        "{'mesh': 0, 'matrix': [-2, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 1, 2, 3, 1]}"};
     for (int i = 0; i < 4; i++) {
         float wanted[3][3];
         for (int k = 0; k < 3; k++) {
@@ -473,8 +470,8 @@ TEST_CASE(nodes_of_gltf_place_meshes)
             wanted[k][1] = 2 - v[1];
             wanted[k][2] = 3 + (i == 3 ? -v[2] : v[2]);
         }
-        write_gltf(places, sizeof places, nodes[i], "\"attributes\": {\"POSITION\": 0}", POSITIONS,
-                   "{\"buffer\": 0, \"byteLength\": 60}");
+        write_gltf(places, sizeof places, nodes[i], "'attributes': {'POSITION': 0}", POSITIONS,
+                   "{'buffer': 0, 'byteLength': 60}");
         koksma__mesh mesh = read_mesh("format.gltf", 3, (const float(*)[3])wanted);
         koksma__mesh_fini(&mesh);
     }

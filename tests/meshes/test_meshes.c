@@ -18,7 +18,7 @@ enum { SIDE = 48 };
 static koksma_scene *scene_of(const char *text)
 {
     koksma_scene *scene;
-    test_write("test_meshes.json", text);
+    write_json("test_meshes.json", text);
     assert_ok(koksma_scene_open("./test_meshes.json", &scene));
     unlink("test_meshes.json");
     return scene;
@@ -64,25 +64,23 @@ static void write_cube(void)
 }
 
 #define HEAD                                                                                                         \
-    "{\"camera\": {\"eye\": [3, 2.5, 6], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"background\": 0.3,"              \
-    "\"ambient\": 0.1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.7}],"                  \
-    "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [2, 5, 3], \"facing\": [0, 0, 0], \"half\": [1, 1],"         \
-    "\"strength\": 1}], \"shapes\": [{\"kind\": \"plane\", \"centre\": [0, -1.5, 0], \"normal\": [0, 1, 0],"         \
-    "\"material\": \"m\"},"
-#define TAIL ", \"material\": \"m\"}]}"
+    "{'camera': {'eye': [3, 2.5, 6], 'target': [0, 0, 0], 'fov_deg': 40}, 'background': 0.3,'ambient': 0.1, "        \
+    "'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0.7}],'lights': [{'kind': 'rectangle', 'centre': [2, " \
+    "5, 3], 'facing': [0, 0, 0], 'half': [1, 1],'strength': 1}], 'shapes': [{'kind': 'plane', 'centre': [0, -1.5, "  \
+    "0], 'normal': [0, 1, 0],'material': 'm'},"
+#define TAIL ", 'material': 'm'}]}"
 
 TEST_CASE(a_cube_is_a_box)
 {
     need_meshes();
     write_cube();
     /* The same samples see the same places: only rounding differs, which moves a few samples on edges. */
-    assert_near(difference(HEAD "{\"kind\": \"box\", \"centre\": [0, 0, 0], \"half\": [1, 1, 1]" TAIL,
-                           HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\"" TAIL),
+    assert_near(difference(HEAD "{'kind': 'box', 'centre': [0, 0, 0], 'half': [1, 1, 1]" TAIL,
+                           HEAD "{'kind': 'mesh', 'file': 'cube.obj'" TAIL),
                 0, 1e-5);
-    assert_near(difference(HEAD "{\"kind\": \"box\", \"centre\": [0.3, 0, -0.2], \"half\": [1, 0.5, 2], "
-                                "\"angle_deg\": 30" TAIL,
-                           HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"translate\": [0.3, 0, -0.2], "
-                                "\"scale\": [1, 0.5, 2], \"rotate_deg\": [0, 30, 0]" TAIL),
+    assert_near(difference(HEAD "{'kind': 'box', 'centre': [0.3, 0, -0.2], 'half': [1, 0.5, 2], 'angle_deg': 30" TAIL,
+                           HEAD "{'kind': 'mesh', 'file': 'cube.obj', 'translate': [0.3, 0, -0.2], 'scale': [1, 0.5, "
+                                "2], 'rotate_deg': [0, 30, 0]" TAIL),
                 0, 1e-5);
     unlink("cube.obj");
 }
@@ -96,13 +94,13 @@ TEST_CASE(a_file_is_one_mesh)
     assert_int_equal(rename("cube.obj", "copy.obj"), 0);
     write_cube();
 #define THREE(second)                                                                                                \
-    "{\"camera\": {\"eye\": [3, 2.5, 6], \"target\": [0, 0, 0], \"fov_deg\": 40}, \"background\": 0.3, "             \
-    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.7}, {\"name\": \"dark\", "               \
-    "\"kind\": \"lambert\", \"albedo\": 0.2}], \"lights\": [], \"shapes\": [{\"kind\": \"mesh\", \"file\": "         \
-    "\"cube.obj\", \"material\": \"m\"}, {\"kind\": \"mesh\", \"file\": \"" second "\", \"name\": \"b\", "           \
-    "\"translate\": [1, 2, 0], \"scale\": 0.5, \"smooth\": true, \"material\": \"dark\"}, {\"kind\": \"mesh\", "     \
-    "\"file\": \"" second "\", \"translate\": [-2, 1, 0], \"scale\": 0.4, \"emission\": [3, 2, 1]}, {\"kind\": "     \
-    "\"instance\", \"of\": \"b\", \"translate\": [0, -2, 0], \"rotate_deg\": [0, 30, 0]" TAIL
+    "{'camera': {'eye': [3, 2.5, 6], 'target': [0, 0, 0], 'fov_deg': 40}, 'background': 0.3, 'materials': "          \
+    "[{'name': 'm', 'kind': 'lambert', 'albedo': 0.7}, {'name': 'dark', 'kind': 'lambert', 'albedo': 0.2}], "        \
+    "'lights': [], 'shapes': [{'kind': 'mesh', 'file': 'cube.obj', 'material': 'm'}, {'kind': 'mesh', 'file': "      \
+    "'" second "', 'name': 'b', 'translate': [1, 2, 0], 'scale': 0.5, 'smooth': true, 'material': 'dark'}, "         \
+    "{'kind': 'mesh', 'file': '" second                                                                              \
+    "', 'translate': [-2, 1, 0], 'scale': 0.4, 'emission': [3, 2, 1]}, {'kind': 'instance', 'of': 'b', "             \
+    "'translate': [0, -2, 0], 'rotate_deg': [0, 30, 0]" TAIL
     assert_int_equal(count_meshes(THREE("copy.obj")), 2);
     assert_int_equal(symlink("cube.obj", "same.obj"), 0);
     assert_int_equal(count_meshes(THREE("same.obj")), 1);
@@ -116,15 +114,13 @@ TEST_CASE(an_instance_is_its_mesh_elsewhere)
 {
     need_meshes();
     write_cube();
-#define FAR_OFF "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"name\": \"c\", \"translate\": [0, 0, 90]" TAIL
-    const char *alone =
-        HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"translate\": [0.3, 0, -0.2], \"smooth\": "
-             "true, \"scale\": [1, 0.5, 2], \"rotate_deg\": [10, 20, 30], \"motion\": [0.4, 0, 0]" TAIL;
+#define FAR_OFF "{'kind': 'mesh', 'file': 'cube.obj', 'name': 'c', 'translate': [0, 0, 90]" TAIL
+    const char *alone = HEAD "{'kind': 'mesh', 'file': 'cube.obj', 'translate': [0.3, 0, -0.2], 'smooth': true, "
+                             "'scale': [1, 0.5, 2], 'rotate_deg': [10, 20, 30], 'motion': [0.4, 0, 0]" TAIL;
     const char *instance =
-        HEAD "{\"kind\": \"mesh\", \"file\": \"cube.obj\", \"name\": \"c\", \"translate\": [0, 0, "
-             "90], \"material\": \"m\"}, {\"kind\": \"instance\", \"of\": \"c\", \"translate\": [0.3, "
-             "0, -0.2], \"smooth\": true, \"scale\": [1, 0.5, 2], \"rotate_deg\": [10, 20, 30], "
-             "\"motion\": [0.4, 0, 0]" TAIL;
+        HEAD "{'kind': 'mesh', 'file': 'cube.obj', 'name': 'c', 'translate': [0, 0, 90], 'material': 'm'}, {'kind': "
+             "'instance', 'of': 'c', 'translate': [0.3, 0, -0.2], 'smooth': true, 'scale': [1, 0.5, 2], "
+             "'rotate_deg': [10, 20, 30], 'motion': [0.4, 0, 0]" TAIL;
     assert_near(difference(alone, instance), 0, 1e-4);
     unlink("cube.obj");
 }
@@ -164,15 +160,15 @@ static void write_ball(int level)
     fclose(file);
 }
 
-#define SPHERE HEAD "{\"kind\": \"sphere\", \"centre\": [0, 0, 0], \"radius\": 1" TAIL
-#define BALL(more) HEAD "{\"kind\": \"mesh\", \"file\": \"ball.obj\"" more TAIL
+#define SPHERE HEAD "{'kind': 'sphere', 'centre': [0, 0, 0], 'radius': 1" TAIL
+#define BALL(more) HEAD "{'kind': 'mesh', 'file': 'ball.obj'" more TAIL
 
 TEST_CASE(a_fine_ball_is_a_sphere)
 {
     need_meshes();
     write_ball(3);
     const double coarse = difference(SPHERE, BALL(""));
-    const double smooth = difference(SPHERE, BALL(", \"smooth\": true"));
+    const double smooth = difference(SPHERE, BALL(", 'smooth': true"));
     write_ball(5);
     const double fine = difference(SPHERE, BALL(""));
     /* flat normals are off by half an edge: halved twice over two levels */
@@ -192,11 +188,10 @@ TEST_CASE(normals_are_smooth_in_all_sizes)
         static const double sizes[] = {1, 0x1p-10, 0x1p-19};
         char text[1024];
         snprintf(text, sizeof text,
-                 "{\"camera\": {\"eye\": [0, 0, %.17g], \"target\": [0, 0, 0], \"fov_deg\": 30},"
-                 "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.5}], \"shapes\":"
-                 "[{\"kind\": \"mesh\", \"file\": \"ball.obj\", \"material\": \"m\", \"smooth\": true,"
-                 "\"scale\": %.17g}], \"lights\": [{\"kind\": \"directional\", \"direction\": [-1, -2, -3],"
-                 "\"irradiance\": 3}]}",
+                 "{'camera': {'eye': [0, 0, %.17g], 'target': [0, 0, 0], 'fov_deg': 30},'materials': [{'name': 'm', "
+                 "'kind': 'lambert', 'albedo': 0.5}], 'shapes':[{'kind': 'mesh', 'file': 'ball.obj', 'material': "
+                 "'m', 'smooth': true,'scale': %.17g}], 'lights': [{'kind': 'directional', 'direction': [-1, -2, "
+                 "-3],'irradiance': 3}]}",
                  5 * sizes[i], sizes[i]);
         koksma_scene *scene = scene_of(text);
         images[i] = render_by(scene, "distribution", 1, SIDE, 1);
@@ -227,13 +222,11 @@ TEST_CASE(convex_bodies_do_not_shade_themselves)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[1024];
         const double s = cases[i].scale, x = cases[i].away;
-        snprintf(
-            text, sizeof text,
-            "{\"camera\": {\"eye\": [%g, 0, %g], \"target\": [%g, 0, 0], \"fov_deg\": 30}, \"materials\": "
-            "[{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 1}], \"lights\": [{\"kind\": \"environment\", "
-            "\"radiance\": 1}], \"shapes\": [{\"kind\": \"mesh\", \"file\": \"ball.obj\", \"scale\": %g, "
-            "\"translate\": [%g, 0, 0], \"material\": \"m\"}]}",
-            x, 4 * s, x, s, x);
+        snprintf(text, sizeof text,
+                 "{'camera': {'eye': [%g, 0, %g], 'target': [%g, 0, 0], 'fov_deg': 30}, 'materials': [{'name': 'm', "
+                 "'kind': 'lambert', 'albedo': 1}], 'lights': [{'kind': 'environment', 'radiance': 1}], 'shapes': "
+                 "[{'kind': 'mesh', 'file': 'ball.obj', 'scale': %g, 'translate': [%g, 0, 0], 'material': 'm'}]}",
+                 x, 4 * s, x, s, x);
         koksma_scene *scene = scene_of(text);
         koksma_image image = render_by(scene, "path", 16, 24, 2);
         for (int p = 0; p < 24 * 24; p++) { /* with MIS the weights of a sample sum to 1 in the mean only */
@@ -274,11 +267,10 @@ static double pixel(const char *text, const char *integrator)
 }
 
 #define PATCH                                                                                                        \
-    "{\"camera\": {\"eye\": [5, 1, 9], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"                                   \
-    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}],"                                    \
-    "\"lights\": [{\"kind\": \"rectangle\", \"centre\": [0, 2, 0], \"normal\": [0, -1, 0], \"half\": [1, 0.5],"      \
-    "\"radiance\": 2}], \"shapes\": [{\"kind\": \"mesh\", \"file\": \"square.ply\", \"scale\": 3, \"material\": "    \
-    "\"m\"}"
+    "{'camera': {'eye': [5, 1, 9], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', 'kind': "       \
+    "'lambert', 'albedo': 0.9}],'lights': [{'kind': 'rectangle', 'centre': [0, 2, 0], 'normal': [0, -1, 0], "        \
+    "'half': [1, 0.5],'radiance': 2}], 'shapes': [{'kind': 'mesh', 'file': 'square.ply', 'scale': 3, 'material': "   \
+    "'m'}"
 
 TEST_CASE(light_on_meshes_is_its_form_factor)
 {
@@ -286,11 +278,9 @@ TEST_CASE(light_on_meshes_is_its_form_factor)
     write_square();
     const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
     assert_near(pixel(PATCH "]}", "distribution"), full, 1e-4);
-    assert_near(pixel(PATCH ", {\"kind\": \"mesh\", \"file\": \"square.ply\", \"translate\": [1, 1.5, 0]" TAIL,
-                      "distribution"),
+    assert_near(pixel(PATCH ", {'kind': 'mesh', 'file': 'square.ply', 'translate': [1, 1.5, 0]" TAIL, "distribution"),
                 full / 2, 2e-3);
-    assert_near(pixel(PATCH ", {\"kind\": \"mesh\", \"file\": \"square.ply\", \"translate\": [0, 2.5, 0]" TAIL,
-                      "distribution"),
+    assert_near(pixel(PATCH ", {'kind': 'mesh', 'file': 'square.ply', 'translate': [0, 2.5, 0]" TAIL, "distribution"),
                 full, 1e-4);
     unlink("square.ply");
 }
@@ -301,10 +291,9 @@ TEST_CASE(motion_covers_its_share_of_time)
     need_meshes();
     write_square();
 #define PASSING(shutter)                                                                                             \
-    "{\"camera\": {\"eye\": [0, 5, 0], \"target\": [0, 0, 0], \"up\": [0, 0, -1], \"fov_deg\": 0.01, \"shutter\": "  \
-    "[" shutter "]}, \"background\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0}],"   \
-    "\"shapes\": [{\"kind\": \"mesh\", \"file\": \"square.ply\", \"translate\": [-2, 0, 0], \"motion\": [4, 0, "     \
-    "0]" TAIL
+    "{'camera': {'eye': [0, 5, 0], 'target': [0, 0, 0], 'up': [0, 0, -1], 'fov_deg': 0.01, 'shutter': [" shutter     \
+    "]}, 'background': 1, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0}],'shapes': [{'kind': 'mesh', " \
+    "'file': 'square.ply', 'translate': [-2, 0, 0], 'motion': [4, 0, 0]" TAIL
     assert_near(pixel(PASSING("0, 1"), "distribution"), 0.5, 2e-3);
     assert_near(pixel(PASSING("0, 0.5"), "distribution"), 0.5, 2e-3);
     assert_near(pixel(PASSING("0, 0.3"), "distribution"), 5.0 / 6, 2e-3);
@@ -321,10 +310,9 @@ TEST_CASE(rotation_covers_its_share_of_time)
                "z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
                "-3 0 3\n0 0 3\n0 0 -3\n-3 0 -3\n4 0 1 2 3\n");
 #define TURNING(more)                                                                                                \
-    "{\"camera\": {\"eye\": [%.12g, 5, %.12g], \"target\": [%.12g, 0, %.12g], \"up\": [0, 0, -1], "                  \
-    "\"orthographic_height\": %g}, \"background\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", "     \
-    "\"albedo\": 0}], \"shapes\": [{\"kind\": \"mesh\", \"file\": \"half.ply\", \"to\": {\"rotate_deg\": [0, 120, "  \
-    "0]}" more
+    "{'camera': {'eye': [%.12g, 5, %.12g], 'target': [%.12g, 0, %.12g], 'up': [0, 0, -1], 'orthographic_height': "   \
+    "%g}, 'background': 1, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': 0}], 'shapes': [{'kind': "       \
+    "'mesh', 'file': 'half.ply', 'to': {'rotate_deg': [0, 120, 0]}" more
     for (int angle_deg = 7; angle_deg < 360; angle_deg += 16) {
         const double x = cos(angle_deg * M_PI / 180), z = -sin(angle_deg * M_PI / 180);
         const int past = angle_deg < 90 ? angle_deg + 360 : angle_deg; /* 90 to 450 */
@@ -430,18 +418,17 @@ TEST_CASE(poses_are_placements)
 {
     need_meshes();
     write_ball(6);
-    assert_true(difference(BALL(", \"smooth\": true, \"to\": {\"rotate_deg\": [30, 100, -20]}"),
-                           BALL(", \"smooth\": true")) < 3e-3);
-    assert_true(difference(BALL(", \"translate\": [0.1, 0, 0], \"motion\": [0.3, 0.2, 0]"),
-                           BALL(", \"translate\": [0.1, 0, 0], \"to\": {\"translate\": [0.4, 0.2, 0]}")) < 1e-4);
+    assert_true(difference(BALL(", 'smooth': true, 'to': {'rotate_deg': [30, 100, -20]}"), BALL(", 'smooth': true")) <
+                3e-3);
+    assert_true(difference(BALL(", 'translate': [0.1, 0, 0], 'motion': [0.3, 0.2, 0]"),
+                           BALL(", 'translate': [0.1, 0, 0], 'to': {'translate': [0.4, 0.2, 0]}")) < 1e-4);
     assert_true(
-        difference(BALL(", \"to\": {\"rotate_deg\": [0, 90, 0], \"scale\": 0.5}"), HEAD
-                   "{\"kind\": \"mesh\", \"file\": \"ball.obj\", \"name\": \"b\", \"translate\": [0, 0, 90], "
-                   "\"material\": \"m\"}, {\"kind\": \"instance\", \"of\": \"b\", \"to\": {\"rotate_deg\": [0, 90, "
-                   "0], \"scale\": 0.5}" TAIL) == 0);
-    assert_true(difference(BALL(", \"to\": {\"scale\": 0.5}"), BALL("")) > 1e-2);
+        difference(BALL(", 'to': {'rotate_deg': [0, 90, 0], 'scale': 0.5}"), HEAD
+                   "{'kind': 'mesh', 'file': 'ball.obj', 'name': 'b', 'translate': [0, 0, 90], 'material': 'm'}, "
+                   "{'kind': 'instance', 'of': 'b', 'to': {'rotate_deg': [0, 90, 0], 'scale': 0.5}" TAIL) == 0);
+    assert_true(difference(BALL(", 'to': {'scale': 0.5}"), BALL("")) > 1e-2);
     koksma_scene *scene;
-    test_write("both.json", BALL(", \"motion\": [1, 0, 0], \"to\": {\"scale\": 0.5}"));
+    write_json("both.json", BALL(", 'motion': [1, 0, 0], 'to': {'scale': 0.5}"));
     assert_int_equal(koksma_scene_open("./both.json", &scene), KOKSMA_MALFORMED);
     assert_non_null(strstr(koksma_error_text(), "it takes one of 'motion' and 'to'"));
     unlink("both.json");
@@ -453,7 +440,7 @@ TEST_CASE(threads_and_modes_leave_no_trace)
     need_meshes();
     write_ball(3);
     volatile float small = 1e-38f, scale = 0.125f;
-    koksma_scene *scene = scene_of(BALL(", \"smooth\": true, \"motion\": [0.3, 0, 0]"));
+    koksma_scene *scene = scene_of(BALL(", 'smooth': true, 'motion': [0.3, 0, 0]"));
     koksma_image one = render_by(scene, "path", 4, SIDE, 1);
     for (int threads = 2; threads <= 5; threads += 3) {
         koksma_image many = render_by(scene, "path", 4, SIDE, threads);
@@ -484,7 +471,7 @@ TEST_CASE(pictures_of_a_scene_share_its_tree)
     need_meshes();
     enum { N = 4 };
     write_ball(3);
-    koksma_scene *scene = scene_of(BALL(", \"smooth\": true"));
+    koksma_scene *scene = scene_of(BALL(", 'smooth': true"));
     picture pictures[N];
     pthread_t threads[N];
     for (int i = 0; i < N; i++) {

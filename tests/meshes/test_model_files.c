@@ -128,9 +128,8 @@ TEST_CASE(what_render_would_refuse_is_refused_at_once)
 {
     static const char *const values[] = {"\0\0\200\177", "\0\0\300\177"};
     static const char *const parts[] = {
-        "\"materials\": [], \"shapes\": [],\n\"lights\": [{\"kind\": \"environment\", \"image\": \"bad.pfm\"}]",
-        "\"shapes\": [],\n\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": {\"image\": "
-        "\"bad.pfm\"}}]"};
+        "'materials': [], 'shapes': [],\n'lights': [{'kind': 'environment', 'image': 'bad.pfm'}]",
+        "'shapes': [],\n'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': {'image': 'bad.pfm'}}]"};
     for (size_t i = 0; i < 4; i++) {
         char text[512], pfm[16] = "Pf\n1 1\n-1\n";
         koksma_scene *scene;
@@ -139,9 +138,9 @@ TEST_CASE(what_render_would_refuse_is_refused_at_once)
         memcpy(pfm + 10, values[i % 2], 4);
         fwrite(pfm, 1, 14, file);
         fclose(file);
-        snprintf(text, sizeof text, "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40}, %s}",
+        snprintf(text, sizeof text, "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40}, %s}",
                  parts[i / 2]);
-        test_write("refused.json", text);
+        write_json("refused.json", text);
         assert_int_equal(koksma_scene_open("./refused.json", &scene), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "refused.json': line 2: "));
         assert_non_null(strstr(koksma_error_text(), "bad.pfm: pixel 0,0 has the value"));
@@ -150,9 +149,10 @@ TEST_CASE(what_render_would_refuse_is_refused_at_once)
     if (koksma_mesh_tracer()) {
         koksma_scene *scene;
         test_write("bad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
-        test_write("refused.json", "{\"camera\": {\"eye\": [0, 0, 5], \"target\": [0, 0, 0], \"fov_deg\": 40},"
-                                   "\"materials\": [], \"shapes\":\n[{\"kind\": \"mesh\", \"file\": \"bad.obj\","
-                                   "\"emission\": 1, \"scale\": 1e-6, \"translate\": [1000, 1000, 0]}]}");
+        write_json(
+            "refused.json",
+            "{'camera': {'eye': [0, 0, 5], 'target': [0, 0, 0], 'fov_deg': 40},'materials': [], 'shapes':\n[{'kind': "
+            "'mesh', 'file': 'bad.obj','emission': 1, 'scale': 1e-6, 'translate': [1000, 1000, 0]}]}");
         assert_int_equal(koksma_scene_open("./refused.json", &scene), KOKSMA_MALFORMED);
         assert_non_null(strstr(koksma_error_text(), "line 2: shapes[0]: a mesh that emits light has no area"));
         unlink("bad.obj");

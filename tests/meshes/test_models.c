@@ -14,7 +14,7 @@ static double mean(const char *scene_text, const char *path, const char *integra
 {
     koksma_scene *scene;
     if (scene_text) {
-        test_write("test_models.json", scene_text);
+        write_json("test_models.json", scene_text);
     }
     assert_ok(koksma_scene_open(scene_text ? "./test_models.json" : path, &scene));
     koksma_image image = picture_of(scene, integrator, "jittered", spp, side, 0);
@@ -29,9 +29,9 @@ static double mean(const char *scene_text, const char *path, const char *integra
 }
 
 #define LIT(light)                                                                                                   \
-    "{\"camera\": {\"eye\": [5, 1, 9], \"target\": [0, 0, 0], \"fov_deg\": 0.01},"                                   \
-    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": [" light                \
-    "{\"kind\": \"plane\", \"centre\": [0, 0, 0], \"normal\": [0, 1, 0], \"material\": \"m\"}]}"
+    "{'camera': {'eye': [5, 1, 9], 'target': [0, 0, 0], 'fov_deg': 0.01},'materials': [{'name': 'm', 'kind': "       \
+    "'lambert', 'albedo': 0.9}], 'shapes': [" light                                                                  \
+    "{'kind': 'plane', 'centre': [0, 0, 0], 'normal': [0, 1, 0], 'material': 'm'}]}"
 
 TEST_CASE(luminous_meshes_have_their_form_factor)
 {
@@ -40,15 +40,15 @@ TEST_CASE(luminous_meshes_have_their_form_factor)
     test_write("lamp.obj",
                "v -1 0 -0.5\nv 1 0 -0.5\nv 1 0 0.5\nv -1 0 0.5\nv -0.9 0 0.5\nf 1 2 5\nf 2 3 5\nf 1 5 4\n");
     const double full = 0.9 * 2 * 4 * corner_factor(0.5, 0.25);
-#define LAMP "{\"kind\": \"mesh\", \"file\": \"lamp.obj\", \"translate\": [0, 2, 0], \"emission\": 2},"
+#define LAMP "{'kind': 'mesh', 'file': 'lamp.obj', 'translate': [0, 2, 0], 'emission': 2},"
     static const char *const integrators[] = {"distribution", "path"};
     for (size_t i = 0; i < 2; i++) {
         /* the path tracer also finds it by chance, weighed against choosing it */
         assert_near(mean(LIT(LAMP), NULL, integrators[i], 1, 16384), full, 3e-3);
     }
     /* from behind it is dark */
-    assert_near(mean(LIT("{\"kind\": \"mesh\", \"file\": \"lamp.obj\", \"translate\": [0, 2, 0], \"rotate_deg\": "
-                         "[180, 0, 0], \"emission\": 2},"),
+    assert_near(mean(LIT("{'kind': 'mesh', 'file': 'lamp.obj', 'translate': [0, 2, 0], 'rotate_deg': [180, 0, 0], "
+                         "'emission': 2},"),
                      NULL, "path", 1, 64),
                 0, 0);
     unlink("lamp.obj");
@@ -65,14 +65,12 @@ TEST_CASE(luminous_meshes_light_meshes)
     for (size_t i = 0; i < 12; i++) {
         const double half = cases[i / 2][0], x = cases[i / 2][1];
         char text[1024];
-        snprintf(
-            text, sizeof text,
-            "{\"camera\": {\"eye\": [%.9g, 1, 9], \"target\": [%.9g, 0, 0], \"fov_deg\": 0.01},"
-            "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": 0.9}], \"shapes\": ["
-            "{\"kind\": \"mesh\", \"file\": \"lamp.obj\", \"translate\": [%.9g, 2, 0], \"emission\": 2},"
-            "{\"kind\": \"mesh\", \"file\": \"floor.obj\", \"translate\": [%.9g, 0, 0], \"scale\": [%.9g, 1, %.9g],"
-            "\"material\": \"m\"}]}",
-            x + 5, x + 0.01, x, x, half, half); /* not on the diagonal of the floor */
+        snprintf(text, sizeof text,
+                 "{'camera': {'eye': [%.9g, 1, 9], 'target': [%.9g, 0, 0], 'fov_deg': 0.01},'materials': [{'name': "
+                 "'m', 'kind': 'lambert', 'albedo': 0.9}], 'shapes': [{'kind': 'mesh', 'file': 'lamp.obj', "
+                 "'translate': [%.9g, 2, 0], 'emission': 2},{'kind': 'mesh', 'file': 'floor.obj', 'translate': "
+                 "[%.9g, 0, 0], 'scale': [%.9g, 1, %.9g],'material': 'm'}]}",
+                 x + 5, x + 0.01, x, x, half, half); /* not on the diagonal of the floor */
         assert_near(mean(text, NULL, i % 2 ? "path" : "distribution", 1, 16384), full, 4e-3);
     }
     unlink("lamp.obj");
@@ -88,10 +86,10 @@ TEST_CASE(images_are_albedos)
     assert_ok(koksma_image_write("texture.pfm", &image, NULL));
     koksma_image_fini(&image);
 #define TEXTURED(target, shape)                                                                                      \
-    "{\"camera\": {\"eye\": [" target ", 5], \"target\": [" target ", 0], \"fov_deg\": 0.01}, \"ambient\": 1,"       \
-    "\"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", \"albedo\": {\"image\": \"texture.pfm\"}}],"           \
-    "\"shapes\": [" shape ", \"material\": \"m\"}]}"
-#define WALL "{\"kind\": \"rectangle\", \"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1]"
+    "{'camera': {'eye': [" target ", 5], 'target': [" target                                                         \
+    ", 0], 'fov_deg': 0.01}, 'ambient': 1,'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': {'image': "       \
+    "'texture.pfm'}}],'shapes': [" shape ", 'material': 'm'}]}"
+#define WALL "{'kind': 'rectangle', 'centre': [0, 0, 0], 'normal': [0, 0, 1], 'half': [1, 1]"
     assert_near(mean(TEXTURED("-0.5, 0.5", WALL), NULL, "distribution", 1, 1), 0.1, 1e-3);
     assert_near(mean(TEXTURED("0.5, 0.5", WALL), NULL, "distribution", 1, 1), 0.2, 1e-3);
     assert_near(mean(TEXTURED("-0.5, -0.5", WALL), NULL, "distribution", 1, 1), 0.3, 1e-3);
@@ -103,7 +101,7 @@ TEST_CASE(images_are_albedos)
     if (koksma_mesh_tracer()) {
         test_write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
                                "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n");
-#define MESH_WALL "{\"kind\": \"mesh\", \"file\": \"wall.obj\""
+#define MESH_WALL "{'kind': 'mesh', 'file': 'wall.obj'"
         assert_near(mean(TEXTURED("-0.5, 0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.1, 1e-3);
         assert_near(mean(TEXTURED("0.5, -0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.4, 1e-3);
         assert_near(mean(TEXTURED("0.9, 0.5", MESH_WALL), NULL, "distribution", 1, 1), 0.6 * 0.2 + 0.4 * 0.1, 1e-3);
@@ -139,10 +137,10 @@ TEST_CASE(images_stand_upright_on_boxes)
         }
         char text[1024];
         snprintf(text, sizeof text,
-                 "{\"camera\": {\"eye\": [%.9g, %.9g, %.9g], \"target\": [%.9g, %.9g, %.9g], \"up\": [%.9g, %.9g, "
-                 "%.9g], \"fov_deg\": 0.01}, \"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": "
-                 "\"lambert\", \"albedo\": {\"image\": \"texture.pfm\"}}], \"shapes\": [{\"kind\": \"box\", "
-                 "\"centre\": [0, 0, 0], \"half\": [%g, %g, %g], \"angle_deg\": 30, \"material\": \"m\"}]}",
+                 "{'camera': {'eye': [%.9g, %.9g, %.9g], 'target': [%.9g, %.9g, %.9g], 'up': [%.9g, %.9g, %.9g], "
+                 "'fov_deg': 0.01}, 'ambient': 1, 'materials': [{'name': 'm', 'kind': 'lambert', 'albedo': {'image': "
+                 "'texture.pfm'}}], 'shapes': [{'kind': 'box', 'centre': [0, 0, 0], 'half': [%g, %g, %g], "
+                 "'angle_deg': 30, 'material': 'm'}]}",
                  eye[0], eye[1], eye[2], at[0], at[1], at[2], axes[up][0], axes[up][1], axes[up][2], half[0], half[1],
                  half[2]);
         assert_near(mean(text, NULL, "distribution", 1, 1), values[corner], 1e-3);
@@ -152,40 +150,31 @@ TEST_CASE(images_stand_upright_on_boxes)
 
 /* A square of 2 x 2 at z = 0 that faces +z. */
 #define SQUARE                                                                                                       \
-    "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, \"material\": 0}]}],"        \
-    "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": 4, \"type\": \"VEC3\", \"min\": [-1, "  \
-    "-1, 0],"                                                                                                        \
-    "\"max\": [1, 1, 0]}, {\"bufferView\": 1, \"componentType\": 5123, \"count\": 6, \"type\": \"SCALAR\"}],"        \
-    "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": "    \
-    "12}],"                                                                                                          \
-    "\"buffers\": [{\"byteLength\": 60, \"uri\": \"square.bin\"}]}"
+    "'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 1, 'material': 0}]}],'accessors': "       \
+    "[{'bufferView': 0, 'componentType': 5126, 'count': 4, 'type': 'VEC3', 'min': [-1, -1, 0],'max': [1, 1, 0]}, "   \
+    "{'bufferView': 1, 'componentType': 5123, 'count': 6, 'type': 'SCALAR'}],'bufferViews': [{'buffer': 0, "         \
+    "'byteLength': 48}, {'buffer': 0, 'byteOffset': 48, 'byteLength': 12}],'buffers': [{'byteLength': 60, 'uri': "   \
+    "'square.bin'}]}"
 
 /* The square in 0.5 grey; its camera at z = 3, its light of 9 candela at z = 3. */
 static const char *const gltf =
-    "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_lights_punctual\"],"
-    "\"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"point\", \"intensity\": 9, \"name\": "
-    "\"lamp\"}]}}, \"scene\": 0, \"scenes\": [{\"nodes\": [0, 1, 2]}], \"nodes\": [{\"mesh\": 0}, {\"camera\": 0, "
-    "\"name\": \"eye\", \"translation\": [0, 0, 3]}, {\"name\": \"lamp\", \"translation\": [0, 0, 3], "
-    "\"extensions\": "
-    "{\"KHR_lights_punctual\": {\"light\": 0}}}],"
-    "\"cameras\": [{\"type\": \"perspective\", \"name\": \"eye\", \"perspective\": {\"yfov\": 0.01, \"aspectRatio\": "
-    "1, "
-    "\"znear\": 0.1}}], \"materials\": [{\"pbrMetallicRoughness\": {\"baseColorFactor\": [0.5, 0.5, 0.5, 1], "
-    "\"metallicFactor\": 0}}]," SQUARE;
+    "{'asset': {'version': '2.0'}, 'extensionsUsed': ['KHR_lights_punctual'],'extensions': {'KHR_lights_punctual': "
+    "{'lights': [{'type': 'point', 'intensity': 9, 'name': 'lamp'}]}}, 'scene': 0, 'scenes': [{'nodes': [0, 1, 2]}], "
+    "'nodes': [{'mesh': 0}, {'camera': 0, 'name': 'eye', 'translation': [0, 0, 3]}, {'name': 'lamp', 'translation': "
+    "[0, 0, 3], 'extensions': {'KHR_lights_punctual': {'light': 0}}}],'cameras': [{'type': 'perspective', 'name': "
+    "'eye', 'perspective': {'yfov': 0.01, 'aspectRatio': 1, 'znear': 0.1}}], 'materials': [{'pbrMetallicRoughness': "
+    "{'baseColorFactor': [0.5, 0.5, 0.5, 1], 'metallicFactor': 0}}]," SQUARE;
 
 /* The square glows with 0.5 x 9 and fills half the height, 2 atan(2 / (3 sqrt 2)), of what a camera at x = z = 3 sees
    that was turned to it. No aspectRatio: yfov is of the height all the same. */
 static const char *const glowing =
-    "{\"asset\": {\"version\": \"2.0\"}, \"extensionsUsed\": [\"KHR_materials_emissive_strength\"], \"scene\": 0,"
-    "\"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"directional\", \"intensity\": 0}]}},"
-    "\"scenes\": [{\"nodes\": [0, 1, 2]}], \"nodes\": [{\"mesh\": 0, \"rotation\": [0, 0.38268343, 0, 0.92387953]},"
-    "{\"camera\": 0, \"name\": \"eye\", \"translation\": [3, 0, 3], \"rotation\": [0, 0.38268343, 0, 0.92387953]},"
-    "{\"extensions\": {\"KHR_lights_punctual\": {\"light\": 0}}}],"
-    "\"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 0.88137359, \"znear\": 0.1}}], "
-    "\"materials\":"
-    "[{\"emissiveFactor\": [0.5, 0.5, 0.5], \"extensions\": {\"KHR_materials_emissive_strength\": "
-    "{\"emissiveStrength\": "
-    "9}}}]," SQUARE;
+    "{'asset': {'version': '2.0'}, 'extensionsUsed': ['KHR_materials_emissive_strength'], 'scene': 0,'extensions': "
+    "{'KHR_lights_punctual': {'lights': [{'type': 'directional', 'intensity': 0}]}},'scenes': [{'nodes': [0, 1, "
+    "2]}], 'nodes': [{'mesh': 0, 'rotation': [0, 0.38268343, 0, 0.92387953]},{'camera': 0, 'name': 'eye', "
+    "'translation': [3, 0, 3], 'rotation': [0, 0.38268343, 0, 0.92387953]},{'extensions': {'KHR_lights_punctual': "
+    "{'light': 0}}}],'cameras': [{'type': 'perspective', 'perspective': {'yfov': 0.88137359, 'znear': 0.1}}], "
+    "'materials':[{'emissiveFactor': [0.5, 0.5, 0.5], 'extensions': {'KHR_materials_emissive_strength': "
+    "{'emissiveStrength': 9}}}]," SQUARE;
 
 TEST_CASE(bare_files_bring_or_get_cameras_and_lights)
 {
@@ -197,10 +186,10 @@ TEST_CASE(bare_files_bring_or_get_cameras_and_lights)
     fwrite(corners, sizeof corners, 1, file);
     fwrite(indices, sizeof indices, 1, file);
     fclose(file);
-    test_write("square.gltf", gltf);
+    write_json("square.gltf", gltf);
     /* intensity / distance^2 times base colour below a surface that reflects .04, and that over 4 pi */
     assert_near(mean(NULL, "square.gltf", "distribution", 1, 1), (0.5 * 0.96 * 0.96 + 0.04 / 4) / M_PI * 9 / 9, 1e-3);
-    test_write("glowing.gltf", glowing);
+    write_json("glowing.gltf", glowing);
     assert_near(mean(NULL, "glowing.gltf", "distribution", 1, 16), 4.5 / 4, 1e-6);
     unlink("glowing.gltf");
     unlink("square.gltf");
@@ -262,11 +251,10 @@ TEST_CASE(hashes_cover_the_files_that_a_scene_names)
     assert_true(once == hash_of("part.obj"));
     test_write("part.mtl", "newmtl a\nKd 0.5 0.5 0.25\n");
     assert_true(once != hash_of("part.obj"));
-    test_write("textured.json",
-               "{\"camera\": {\"eye\": [0, 0, 3], \"target\": [0, 0, 0], \"fov_deg\": 40}, "
-               "\"ambient\": 1, \"materials\": [{\"name\": \"m\", \"kind\": \"lambert\", "
-               "\"albedo\": {\"image\": \"one.pfm\"}}], \"shapes\": [{\"kind\": \"rectangle\", "
-               "\"centre\": [0, 0, 0], \"normal\": [0, 0, 1], \"half\": [1, 1], \"material\": \"m\"}]}");
+    write_json("textured.json",
+               "{'camera': {'eye': [0, 0, 3], 'target': [0, 0, 0], 'fov_deg': 40}, 'ambient': 1, 'materials': "
+               "[{'name': 'm', 'kind': 'lambert', 'albedo': {'image': 'one.pfm'}}], 'shapes': [{'kind': 'rectangle', "
+               "'centre': [0, 0, 0], 'normal': [0, 0, 1], 'half': [1, 1], 'material': 'm'}]}");
     test_write("one.pfm", "Pf\n1 1\n-1\n\1\1\1\076");
     const uint64_t dark = hash_of("./textured.json");
     assert_true(dark == hash_of("./textured.json"));
