@@ -280,8 +280,7 @@ def check_headers(tree):
         for name in re.findall(r"^(?:typedef )?(?:struct|union|enum) (koksma_\w+) \{", text, re.M):
             types.setdefault(name, []).append(path)
     for name, paths in sorted(types.items()):
-        others = [p for p in paths[1:] if not re.search(r"platform/\w+_windows\.c$", p)]  # a system each
-        for path in others:
+        for path in paths[1:]:
             yield "types", path, "%s is defined in %s too" % (name, paths[0])
     for header in sorted(headers):
         users = [p for p in tree.code if header in tree.includes[p]]

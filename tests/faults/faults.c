@@ -69,13 +69,10 @@ WRAP(void *, aligned_alloc, (size_t alignment, size_t size), (alignment, size), 
 WRAP(char *, strdup, (const char *text), (text), FAULT_MEMORY, ENOMEM, NULL)
 /* The bits of a new file are in their register whether the caller gave them or not. */
 WRAP(int, open, (const char *path, int flags, mode_t bits), (path, flags, bits), FAULT_OPEN, EMFILE, -1)
-WRAP(int, openat, (int folder, const char *path, int flags, mode_t bits), (folder, path, flags, bits), FAULT_OPEN,
-     EMFILE, -1)
 WRAP(int, memfd_create, (const char *name, unsigned flags), (name, flags), FAULT_OPEN, EMFILE, -1)
 WRAP(int, mkdir, (const char *path, mode_t bits), (path, bits), FAULT_OPEN, ENOSPC, -1)
 WRAP(int, fsync, (int descriptor), (descriptor), FAULT_SYNC, EIO, -1)
-WRAP(int, renameat, (int from_folder, const char *from, int folder, const char *to), (from_folder, from, folder, to),
-     FAULT_RENAME, EACCES, -1)
+WRAP(int, rename, (const char *from, const char *to), (from, to), FAULT_RENAME, EACCES, -1)
 WRAP(int, pthread_create, (pthread_t * thread, const pthread_attr_t *attributes, void *(*f)(void *), void *argument),
      (thread, attributes, f, argument), FAULT_THREAD, EAGAIN, EAGAIN)
 WRAP(int, sqlite3_open_v2, (const char *path, sqlite3 **database, int flags, const char *vfs),

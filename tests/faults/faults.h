@@ -14,12 +14,12 @@
 typedef enum fault_kind {
     FAULT_NONE,
     FAULT_MEMORY, /* malloc and the like in the program and the libraries, and jansson's */
-    FAULT_OPEN,   /* open, openat, fopen, fdopen, fopencookie, memfd_create, mkdir */
+    FAULT_OPEN,   /* open, fopen, fdopen, fopencookie, memfd_create, mkdir */
     FAULT_READ,   /* reading from a file that fopen or fdopen gave */
     FAULT_WRITE,  /* write, or writing to standard output */
     FAULT_SYNC,   /* fsync */
     FAULT_CLOSE,  /* close, fclose */
-    FAULT_RENAME, /* renameat */
+    FAULT_RENAME, /* rename */
     FAULT_THREAD, /* pthread_create */
     FAULT_DB,     /* what is asked of SQLite */
     N_FAULTS

@@ -81,12 +81,6 @@ typedef struct koksma__atomic_file {
    replaced. Errors: IO, MEMORY. */
 KOKSMA__LAB koksma_status koksma__atomic_open(const char *folder, const char *path, koksma__atomic_file *file);
 
-enum { KOKSMA__TEMPORARY_PATH = KOKSMA__MAX_PATH + 64 };
-
-/* Returns the path of the temporary file while it is open, for a library that opens files by name. Works only for
-   plain files. */
-KOKSMA__LAB void koksma__atomic_temporary(const koksma__atomic_file *file, char path[KOKSMA__TEMPORARY_PATH]);
-
 /* Returns the bytes that the disk of the open file has left; UINT64_MAX: unknown, or the target is not a plain file. */
 KOKSMA__LAB uint64_t koksma__atomic_space(const koksma__atomic_file *file);
 

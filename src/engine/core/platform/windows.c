@@ -232,10 +232,18 @@ int koksma__rmdir(const char *path)
     return code;
 }
 
-int koksma__link(const char *from, const char *to)
+/* Replaces a file. Other programs, such as virus scanners, may hold a new file open for a moment. */
+int koksma__rename(const char *from, const char *to)
 {
+    enum { TRIES = 20, PAUSE_MS = 20 };
     wchar_t *one = koksma__wide_path(from), *other = koksma__wide_path(to);
-    const int code = !one || !other ? -1 : CreateHardLinkW(other, one, NULL) ? 0 : koksma__set_errno();
+    bool done = false, held = one && other;
+    for (int i = 0; held && !done && i < TRIES; i++) {
+        Sleep(i ? PAUSE_MS : 0);
+        done = MoveFileExW(one, other, MOVEFILE_WRITE_THROUGH | MOVEFILE_REPLACE_EXISTING);
+        held = done || GetLastError() == ERROR_ACCESS_DENIED || GetLastError() == ERROR_SHARING_VIOLATION;
+    }
+    const int code = done ? 0 : one && other ? koksma__set_errno() : -1;
     free(one);
     free(other);
     return code;
@@ -393,20 +401,6 @@ int koksma__fclose(FILE *stream)
     return fclose(stream) || !taken ? EOF : 0;
 }
 
-FILE *koksma__fmemopen(void *bytes, size_t size, const char *mode)
-{
-    FILE *stream = temporary_file();
-    (void)mode;
-    if (stream && fwrite(bytes, 1, size, stream) != size) {
-        fclose(stream);
-        return NULL;
-    }
-    if (stream) {
-        rewind(stream);
-    }
-    return stream;
-}
-
 char *koksma__strndup(const char *text, size_t size)
 {
     const size_t length = strnlen(text, size);
@@ -416,13 +410,6 @@ char *koksma__strndup(const char *text, size_t size)
         copy[length] = '\0';
     }
     return copy;
-}
-
-char *koksma__stpcpy(char *to, const char *from)
-{
-    const size_t length = strlen(from);
-    memcpy(to, from, length + 1);
-    return to + length;
 }
 
 /* ---- Libraries ----------------------------------------------------------------------------------------- */

@@ -56,7 +56,7 @@ KOKSMA__LAB int koksma__access(const char *path, int mode);
 KOKSMA__LAB int koksma__mkdir(const char *path, int mode);
 KOKSMA__LAB int koksma__unlink(const char *path);
 KOKSMA__LAB int koksma__rmdir(const char *path);
-KOKSMA__LAB int koksma__link(const char *from, const char *to);
+KOKSMA__LAB int koksma__rename(const char *from, const char *to);
 KOKSMA__LAB char *koksma__realpath(const char *path, char *out);
 KOKSMA__LAB char *koksma__getcwd(char *out, size_t size);
 KOKSMA__LAB intptr_t koksma__readlink(const char *path, char *out, size_t size);
@@ -77,7 +77,9 @@ KOKSMA__LAB intptr_t koksma__pread(int descriptor, void *bytes, size_t size, int
 #define mkdir koksma__mkdir
 #define unlink koksma__unlink
 #define rmdir koksma__rmdir
-#define link koksma__link
+#define rename koksma__rename
+#define fsync _commit
+#define fchmod(descriptor, mode) ((void)0)
 #define realpath koksma__realpath
 #define getcwd koksma__getcwd
 #define readlink koksma__readlink
@@ -112,14 +114,11 @@ KOKSMA__LAB struct tm *koksma__gmtime_r(const time_t *when, struct tm *out);
 
 /* The text is there after fclose, as here nothing else is asked of it. */
 KOKSMA__LAB FILE *koksma__open_memstream(char **text, size_t *size);
-KOKSMA__LAB FILE *koksma__fmemopen(void *bytes, size_t size, const char *mode);
 KOKSMA__LAB char *koksma__strndup(const char *text, size_t size);
-KOKSMA__LAB char *koksma__stpcpy(char *to, const char *from);
 
 #define open_memstream koksma__open_memstream
-#define fmemopen koksma__fmemopen
+#define fmemopen(bytes, size, mode) NULL /* it reads what a program printed, and none runs here */
 #define strndup koksma__strndup
-#define stpcpy koksma__stpcpy
 
 /* Of mingw's these are -1 for true, and the sources count with them. */
 #undef isnan
