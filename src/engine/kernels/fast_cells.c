@@ -5,8 +5,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(cells_2d)(double start, double width, size_t nx, size_t ny, double *xs);
-
 enum { POINTS = LANES64 / 2 };
 
 /* The numbers of cells along x (in even lanes) and y (in odd lanes). exact: both numbers are powers of two. */

@@ -6,9 +6,6 @@
 
 enum { BLOCK = 128, LANES = 32 };
 
-size_t KERNEL_NAME(far_corners)(size_t count, const int16_t *counts, const float *xs, float sign, float y,
-                                float limit, uint32_t *out);
-
 /* Returns the largest difference over `count` corners, or 0 if all are negative; count is a multiple of LANES. */
 static float largest(size_t count, const int16_t *restrict counts, const float *restrict xs, float sign, float y)
 {

@@ -5,11 +5,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes8.h"
 
-int32_t KERNEL_NAME(nearest_place)(const uint32_t *cells, size_t stride, uint32_t place);
-size_t KERNEL_NAME(far_darts)(const koksma__dart_cells *c, int32_t low, size_t count, const uint32_t *words,
-                              uint32_t *far);
-size_t KERNEL_NAME(open_quarters)(const koksma__dart_cells *c, int32_t low, uint32_t *out);
-
 LANES8_INLINE void nearest_of_rows(const uint32_t *cells, size_t stride, uint32_t place, lanes8 *least)
 {
     lanes8_pairs at;

@@ -9,10 +9,6 @@
 
 #include "kernels/kernels.h"
 
-#define KERNEL(result, name, arguments) result KERNEL_NAME(name) arguments;
-#include "kernels/kernels.def"
-#undef KERNEL
-
 /* Returns whether `whole` is a power of two, so that x / whole equals x * (1 / whole) for all x. */
 static bool is_power_of_two(double whole)
 {

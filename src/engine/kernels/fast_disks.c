@@ -7,9 +7,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-double KERNEL_NAME(disk_overlaps)(int law, double r, double x, double y, size_t count, const double *xs,
-                                  const double *ys);
-
 enum { LANES = 8, VECTORS = LANES / LANES64 };
 
 /* Coefficients of (asin(sqrt z) / sqrt z - 1) / z on [0, 1/4]: a Chebyshev fit of degree 11 with an error of 2.4e-16.

@@ -7,10 +7,6 @@
 
 enum { LANES = 16 };
 
-double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double x0, double y0);
-void KERNEL_NAME(count_below)(size_t n, const double *x, const double *y, const double a[16], const double b[16],
-                              const double c[16], double counts[16]);
-
 double KERNEL_NAME(distances)(size_t n, const double *x, const double *y, double x0, double y0)
 {
     double lanes[LANES] = {0};

@@ -10,9 +10,6 @@
 enum { LANES = 16 };
 
 void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],
-                                 double excess[16], double deficit[16]);
-
-void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y, const double sides[6][16],
                                  double excess[16], double deficit[16])
 {
     double inside[LANES], low[LANES], best[LANES], inside_open[LANES], low_open[LANES], best_open[LANES];
@@ -52,9 +49,6 @@ void KERNEL_NAME(extreme_strips)(size_t count, const double *x, const double *y,
     memcpy(excess, best, sizeof best);
     memcpy(deficit, best_open, sizeof best_open);
 }
-
-void KERNEL_NAME(extreme_runs)(size_t count, const double *x, const double *y, const double (*lines)[9],
-                               const double sides[6][16], double excess[16], double deficit[16]);
 
 void KERNEL_NAME(extreme_runs)(size_t count, const double *x, const double *y, const double (*lines)[9],
                                const double sides[6][16], double excess[16], double deficit[16])

@@ -6,10 +6,6 @@
 
 enum { LANES = 16, ROWS = 8 };
 
-void KERNEL_NAME(outer_sums)(size_t count, const double *a, const double *b, double sums[8][16]);
-bool KERNEL_NAME(fourier16)(size_t n, const double *twiddles, double *re, double *im, double *spare_re,
-                            double *spare_im);
-
 /* outer_sums works on GROUP rows at a time, which is the number that fits into the registers. Type `loose` is an
    unaligned vector. */
 enum { VECTORS = LANES / LANES64, GROUP = LANES64 == 8 ? 8 : LANES64 / 2 };

@@ -4,9 +4,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(gauss_force)(size_t runs, const uint32_t *run, const double *xs, const double *ys, double x,
-                              double y, double scale, double cut2, double force[2]);
-
 enum { LANES = 8, PARTS = LANES / LANES64 };
 
 /* Returns exp(z) for -50 <= z <= 0 with a relative error of 1e-11, as 2^k exp(r) with z = k ln 2 + r and |r| <= ln 2

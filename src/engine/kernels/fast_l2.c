@@ -3,18 +3,12 @@
    point i with all j < i (row i) are summed in a fixed number of lanes, so that every instruction set adds in the same
    order and gives the same bits. The row sums are added with compensation. */
 #include <math.h>
-#include <string.h>
 
+#include "core/double_double.h"
 #include "core/sum.h"
 #include "kernels/kernels.h"
-#include "kernels/lanes64.h"
 
 enum { LANES = 16, CHUNK = 64 };
-
-void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const double *u, const double *g, double q,
-                           double r, double sum[2]);
-void KERNEL_NAME(l2_linear)(size_t count, int dim, const double *u, size_t stride, const double f[4], double *hi,
-                            double *lo);
 
 typedef struct shape {
     size_t n;
@@ -83,85 +77,32 @@ void KERNEL_NAME(l2_pairs)(size_t first, size_t end, size_t n, int dim, const do
     sum[1] = pairs.lost;
 }
 
-/* The double-doubles of core/double_double.h in lanes, operation by operation. */
-typedef struct lanes_dd {
-    lanes64_d hi, lo;
-} lanes_dd;
-
-static inline lanes_dd lanes_sum(lanes64_d a, lanes64_d b)
+/* Multiplies double-doubles by a(u[i]) / 24, i < count: the loop of the reference, which the compiler vectorises. */
+static inline void multiply_linear(const double f[4], size_t count, const double *restrict u, double *restrict hi,
+                                   double *restrict lo)
 {
-    const lanes64_d s = a + b, t = s - a;
-    return (lanes_dd){s, (a - (s - t)) + (b - t)};
-}
-
-static inline lanes_dd lanes_quick_sum(lanes64_d a, lanes64_d b)
-{
-    const lanes64_d s = a + b;
-    return (lanes_dd){s, b - (s - a)};
-}
-
-static inline lanes_dd lanes_product(lanes64_d a, lanes64_d b)
-{
-    const lanes64_d p = a * b, sa = a * 134217729.0, sb = b * 134217729.0;
-    const lanes64_d ah = sa - (sa - a), al = a - ah, bh = sb - (sb - b), bl = b - bh;
-    return (lanes_dd){p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
-}
-
-static inline lanes_dd lanes_add(lanes_dd a, lanes_dd b)
-{
-    const lanes_dd s = lanes_sum(a.hi, b.hi), t = lanes_sum(a.lo, b.lo);
-    const lanes_dd v = lanes_quick_sum(s.hi, s.lo + t.hi);
-    return lanes_quick_sum(v.hi, v.lo + t.lo);
-}
-
-static inline lanes_dd lanes_mul(lanes_dd a, lanes_dd b)
-{
-    const lanes_dd p = lanes_product(a.hi, b.hi);
-    return lanes_quick_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
-}
-
-static inline lanes_dd lanes_scale(lanes_dd a, lanes64_d b)
-{
-    const lanes_dd p = lanes_product(a.hi, b);
-    return lanes_quick_sum(p.hi, p.lo + a.lo * b);
-}
-
-static inline lanes_dd lanes_divide(lanes_dd a, lanes64_d b)
-{
-    const lanes64_d q = a.hi / b;
-    const lanes_dd p = lanes_product(q, b), rest = lanes_add(a, (lanes_dd){-p.hi, -p.lo});
-    return lanes_quick_sum(q, rest.hi / b);
-}
-
-/* a(u) / 24 */
-static inline lanes_dd linear(const double f[4], lanes64_d u)
-{
-    const lanes64_d z = u - 0.5;
-    lanes_dd a = {lanes64_splat_d(f[0]), lanes64_splat_d(0)};
-    if (f[1] != 0) {
-        a = lanes_add(a, lanes_product(lanes64_splat_d(f[1]), z));
+    for (size_t i = 0; i < count; i++) {
+        const double z = u[i] - 0.5;
+        koksma__dd a = {f[0], 0};
+        a = f[1] != 0 ? koksma__dd_add(a, koksma__dd_product(f[1], z)) : a;
+        a = f[2] != 0 ? koksma__dd_add(a, koksma__dd_scale(koksma__dd_product(z, z), f[2])) : a;
+        a = f[3] != 0 ? koksma__dd_add(a, koksma__dd_product(f[3], fabs(z))) : a;
+        const koksma__dd product = koksma__dd_mul((koksma__dd){hi[i], lo[i]}, koksma__dd_divide(a, 24));
+        hi[i] = product.hi;
+        lo[i] = product.lo;
     }
-    if (f[2] != 0) {
-        a = lanes_add(a, lanes_scale(lanes_product(z, z), lanes64_splat_d(f[2])));
-    }
-    if (f[3] != 0) {
-        a = lanes_add(a, lanes_product(lanes64_splat_d(f[3]), lanes64_abs(z)));
-    }
-    return lanes_divide(a, lanes64_splat_d(24));
 }
 
 void KERNEL_NAME(l2_linear)(size_t count, int dim, const double *u, size_t stride, const double f[4], double *hi,
                             double *lo)
 {
-    for (size_t i = 0; i < count; i += LANES64) {
-        const size_t some = count - i < LANES64 ? count - i : LANES64;
-        lanes_dd product = {lanes64_splat_d(1), lanes64_splat_d(0)};
+    for (size_t i = 0; i < count; i++) {
+        hi[i] = 1;
+        lo[i] = 0;
+    }
+    for (size_t i = 0; i < count; i += CHUNK) {
         for (size_t k = 0; k < (size_t)dim; k++) {
-            double rest[LANES64] = {0};
-            memcpy(rest, u + k * stride + i, some * sizeof *u);
-            product = lanes_mul(product, linear(f, lanes64_load_d(rest)));
+            multiply_linear(f, count - i < CHUNK ? count - i : CHUNK, u + k * stride + i, hi + i, lo + i);
         }
-        memcpy(hi + i, &product.hi, some * sizeof *hi);
-        memcpy(lo + i, &product.lo, some * sizeof *lo);
     }
 }

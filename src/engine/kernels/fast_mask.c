@@ -6,9 +6,6 @@
 
 #include "kernels/kernels.h"
 
-float KERNEL_NAME(mask_growth)(size_t rows, size_t span, size_t stride, size_t plane, int dim, const float *weights,
-                               const float *values, const float *from, const float *to);
-
 enum { LANES = 8 };
 
 typedef float lanes __attribute__((vector_size(32)));

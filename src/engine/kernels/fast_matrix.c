@@ -5,8 +5,6 @@
 
 #include "kernels/kernels.h"
 
-void KERNEL_NAME(digital_at)(size_t count, const uint32_t *index, const uint32_t *directions, uint32_t *out);
-
 enum { POINTS = 32 };
 
 #ifdef __AVX2__

@@ -6,14 +6,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(nearest_offset)(size_t near, const double *dx, const double *dy, size_t count, const double *pairs,
-                                 double scale, double *least);
-unsigned KERNEL_NAME(covers)(size_t count, const double *xs, const double *ys, double x, double y, double step,
-                             double h, double d2);
-
-void KERNEL_NAME(pair_counts)(size_t count, const double *xs, const double *ys, double x, double y, double r2,
-                              double scale, size_t bins, uint64_t *counts);
-
 static inline bool any(lanes64_i mask)
 {
     int64_t sum = 0;

@@ -10,9 +10,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(nested_digits)(uint32_t base, uint32_t relatives, size_t count, double width, const double *xs,
-                                double *const *v);
-
 enum { CHAINS = 2, LANES = CHAINS * LANES64 };
 
 #define EVERY_DIGIT 0xfedcba9876543210u

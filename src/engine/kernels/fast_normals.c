@@ -5,8 +5,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(truncated_normals)(double reach, double scale, size_t count, double *xs);
-
 /* koksma__log of normal numbers from 0 to 1: x = 2^e m with m from 1/2 to 1 by the bits, as frexp does. */
 static inline lanes64_d log_of(lanes64_d x)
 {

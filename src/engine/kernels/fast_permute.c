@@ -5,8 +5,6 @@
 
 #include "kernels/kernels.h"
 
-void KERNEL_NAME(permute)(uint32_t first, size_t count, uint32_t n, uint64_t key, uint32_t *out);
-
 enum { ROUNDS = 6, BLOCK = 256 };
 
 typedef struct bijection {

@@ -25,14 +25,6 @@ typedef struct block {
     lanes64_u w[4][CHAINS];
 } block;
 
-void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out);
-void KERNEL_NAME(words)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
-void KERNEL_NAME(draws)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, uint32_t *out);
-void KERNEL_NAME(permutation)(uint64_t seed, uint32_t lane, uint32_t n, uint32_t *out);
-void KERNEL_NAME(rooks_2d)(uint64_t seed, const uint32_t *rows, size_t first, size_t count, size_t n, double *xs);
-void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested_node *first, size_t count,
-                              uint64_t *x);
-
 /* The parts of the first two rounds that are equal for all counters that differ only in their lowest word: w2_of_0 is
    xored into w[2] in round 0, w0_of_1 into w[0] and w2_of_1 into w[2] in round 1, and w3_of_1 is w[3] after round 1.
    keys: the keys of the other rounds, as memory operands that need no load instruction. */

@@ -8,14 +8,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(digital_rows)(size_t count, int dim, const uint32_t *const *directions, const uint32_t *starts,
-                               bool stream, double *out);
-
-void KERNEL_NAME(rows_of_columns)(size_t count, int dim, const double *columns, size_t stride, bool stream,
-                                  double *out);
-void KERNEL_NAME(fraction_rows)(size_t count, int dim, const uint32_t *columns, size_t stride, bool stream,
-                                double *out);
-
 #define INLINE                                                                                                       \
     static inline __attribute__((always_inline)) /* inlined, so that there is one copy for each dim, stream
                                                                and kind of column */

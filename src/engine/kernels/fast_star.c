@@ -9,12 +9,6 @@
 #include "kernels/kernels.h"
 #include "kernels/lanes64.h"
 
-void KERNEL_NAME(star_sweep)(size_t n, const double *x, const uint32_t *rank, const double *y, double *count,
-                             double best[2], size_t at[2]);
-void KERNEL_NAME(star_extremes)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double *out);
-double KERNEL_NAME(star_pairs)(size_t na, const double *a, size_t nb, const double *b, bool smallest, double n,
-                               double inside);
-
 typedef struct step {
     double here, next; /* n times the x coordinate of this point and of the next one */
     double best[2];

@@ -126,4 +126,10 @@ KOKSMA__LAB const koksma__kernel_table *koksma__kernels_find(const char *isa);
 #define KOKSMA__JOIN(a, b, c) KOKSMA__JOIN3(a, b, c)
 #define KERNEL_NAME(name) KOKSMA__JOIN(koksma__kernel_, name, KOKSMA_ISA)
 
+#ifdef KOKSMA_ISA
+#define KERNEL(result, name, arguments) result KERNEL_NAME(name) arguments;
+#include "kernels/kernels.def"
+#undef KERNEL
+#endif
+
 #endif

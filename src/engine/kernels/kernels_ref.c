@@ -12,10 +12,6 @@
 #include "core/sum.h"
 #include "kernels/kernels.h"
 
-#define KERNEL(result, name, arguments) result KERNEL_NAME(name) arguments;
-#include "kernels/kernels.def"
-#undef KERNEL
-
 void KERNEL_NAME(uniform)(uint64_t seed, uint32_t purpose, uint64_t first, uint32_t lane, size_t count, double *out)
 {
     for (size_t i = 0; i < count; i++) {

@@ -12,10 +12,6 @@
 #include "core/random.h"
 #include "kernels/kernels.h"
 
-#define KERNEL(result, name, arguments) result KERNEL_NAME(name) arguments;
-#include "kernels/kernels.def"
-#undef KERNEL
-
 void KERNEL_NAME(nested_bits)(uint64_t seed, uint32_t lane, const koksma__nested_node *first, size_t count,
                               uint64_t *x)
 {

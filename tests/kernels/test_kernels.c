@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The kernels of patterns against their twins, bit for bit, for odd counts. */
+/* The kernels against their twins, bit for bit, for odd counts. The twins of random numbers are Random123's own Philox. */
 #include <math.h>
 #include <string.h>
 
 #include "core/random.h"
 #include "kernels/kernels.h"
+#include "patterns/grids/grids.h"
 #include "patterns/nets/nets.h"
 #include "test.h"
 
@@ -14,6 +15,7 @@ static const char *const isas[] = {"baseline", "avx2", "avx512"};
 
 static uint32_t words[4 * MAX];
 static double units[2 * MAX];
+static koksma__nested_node nodes[1 << KOKSMA__NESTED_LEVELS];
 
 static int setup(void **state)
 {
@@ -23,6 +25,10 @@ static int setup(void **state)
     ref->uniform(6, KOKSMA__PURPOSE_TEST, 0, 0, MAX, units);
     words[0] = 0;
     words[1] = UINT32_MAX;
+    for (size_t d = 0; d < sizeof nodes / sizeof *nodes; d++) {
+        nodes[d] = koksma__nested_node_of(koksma__random(8, KOKSMA__PURPOSE_TEST, d, 0));
+        nodes[d].flips = (uint64_t)d * 37 % 128;
+    }
     return 0;
 }
 
@@ -39,6 +45,95 @@ static void assert_equal_to_reference(compare f, size_t most)
             f(koksma__kernels_find("ref"), count, a);
             f(fast, count, b);
             assert_memory_equal(a, b, sizeof a);
+        }
+    }
+}
+
+/* ---- Random numbers ------------------------------------------------------------------------------------------ */
+
+static void uniform(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->uniform(count * 77, 3, 0xfffffff0u + count, 5, count, out);
+}
+
+static void words_and_draws(const koksma__kernel_table *t, size_t count, void *out)
+{
+    uint32_t drawn[4 * MAX + 32];
+    t->words(~count, 9, 0xfffffffffull, 1, count, out);
+    t->draws(~count, 9, 0xfffffffffull, 1, count, drawn); /* may write more */
+    memcpy((uint32_t *)out + 4 * MAX, drawn, 4 * count * sizeof *drawn);
+}
+
+static void permutation(const koksma__kernel_table *t, size_t count, void *out)
+{
+    t->permutation(count, 3, (uint32_t)count, out);
+}
+
+/* Counts with every remainder of the vectors; seeds and lanes with high bits. */
+static void nested_bits(const koksma__kernel_table *t, size_t count, void *out)
+{
+    const uint64_t seed = count % 2 ? UINT64_MAX - count : 0x123456789abcdefu * count;
+    uint64_t *x = out;
+    for (size_t i = 0; i < count; i++) {
+        const uint64_t word = words[2 * i] | (uint64_t)words[2 * i + 1] << 32;
+        x[i] = i == 2 ? UINT64_MAX >> 11 : i == 3 ? 0 : word >> (i % 3 ? 11 : 30);
+    }
+    t->nested_bits(seed, count % 3 ? (uint32_t)count : UINT32_MAX, nodes, count, x);
+}
+
+/* The definition of nested scrambling, digit by digit: two numbers that agree in exactly their first m digits agree in
+   exactly these afterwards, and the flip of digit m depends on the digits before it alone. */
+TEST_CASE(nested_bits_keep_prefixes)
+{
+    for (int m = KOKSMA__NESTED_LEVELS; m < KOKSMA__NESTED_DIGITS; m++) {
+        const koksma__words r = koksma__random(10, KOKSMA__PURPOSE_TEST, (uint64_t)m, 0);
+        const uint64_t digit = (uint64_t)1 << (KOKSMA__NESTED_DIGITS - 1 - m);
+        const uint64_t x = (r.w[0] | (uint64_t)r.w[1] << 32) >> 11, other = x ^ digit ^ (r.w[2] & (digit - 1));
+        for (size_t isa = 0; isa < 3; isa++) {
+            const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+            uint64_t pair[2] = {x, other};
+            if (fast) {
+                fast->nested_bits(3, 4, nodes, 2, pair);
+                const uint64_t differ = pair[0] ^ pair[1];
+                assert_true(differ >= digit && differ < 2 * digit);
+            }
+        }
+    }
+}
+
+/* Random123's known-answer vectors for philox4x32-10 and -7 with counter and key of all ones. */
+TEST_CASE(philox_known_answer)
+{
+    const koksma__words r = koksma__random(UINT64_MAX, UINT32_MAX, UINT64_MAX, UINT32_MAX);
+    const uint32_t expected[4] = {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd};
+    assert_memory_equal(r.w, expected, sizeof expected);
+    const koksma__words draw = koksma__random_draw(UINT64_MAX, UINT32_MAX, UINT64_MAX, UINT32_MAX);
+    const uint32_t of_seven[4] = {0x5207ddc2, 0x45165e59, 0x4d8ee751, 0x8c52f662};
+    assert_memory_equal(draw.w, of_seven, sizeof of_seven);
+}
+
+/* ---- Patterns -------------------------------------------------------------------------------------------------- */
+
+static const size_t grids[][2] = {{1, 1}, {4, 4}, {8, 8}, {3, 5}, {7, 2}, {16, 3}, {5, 16}, {13, 13}};
+
+static void cells_2d(const koksma__kernel_table *t, size_t count, void *out)
+{
+    const size_t *n = grids[count % 8];
+    memcpy(out, units, 2 * n[0] * n[1] * sizeof *units);
+    ((double *)out)[1] = 1 - 0x1p-53; /* must not round into the next cell */
+    t->cells_2d(0.25, 0.5, n[0], n[1], out);
+}
+
+TEST_CASE(cells_are_those_of_patterns)
+{
+    for (size_t g = 0; g < 8; g++) {
+        const size_t nx = grids[g][0], ny = grids[g][1];
+        double xs[2 * 169];
+        memcpy(xs, units, sizeof xs);
+        koksma__kernels_find("ref")->cells_2d(0, 1, nx, ny, xs);
+        for (size_t i = 0; i < nx * ny; i++) {
+            assert_near(xs[2 * i], koksma__in_cell((double)(i / ny), units[2 * i], (double)nx), 0);
+            assert_near(xs[2 * i + 1], koksma__in_cell((double)(i % ny), units[2 * i + 1], (double)ny), 0);
         }
     }
 }
@@ -263,12 +358,108 @@ static void rooks_2d(const koksma__kernel_table *t, size_t count, void *out)
     }
 }
 
+/* ---- Measures -------------------------------------------------------------------------------------------------- */
+
+static void star_sweep(const koksma__kernel_table *t, size_t n, void *out)
+{
+    double x[MAX], y[MAX + 8], count[MAX + 9];
+    uint32_t rank[MAX];
+    size_t at[2] = {0};
+    koksma__random_permutation(n, 0, (uint32_t)n, rank);
+    for (size_t i = 0; i < n; i++) {
+        x[i] = ((double)i + units[i]) / (double)n;
+    }
+    for (size_t j = 0; j < n + 8; j++) {
+        y[j] = j < n ? ((double)j + units[n + j]) / (double)n : 1;
+    }
+    if (n) {
+        t->star_sweep(n, x, rank, y, count, out, at);
+    }
+    memcpy((double *)out + 2, at, sizeof at);
+}
+
+/* Lists longer than the fast form's chunks among them. */
+static void star_partition(const koksma__kernel_table *t, size_t na, void *out)
+{
+    double *sums = out, found[2 * MAX + 8];
+    for (size_t nb = 1; na && nb <= MAX; nb += 1 + nb / 7) {
+        for (int smallest = 0; smallest < 2; smallest++) {
+            t->star_extremes(na, units, nb, units + MAX, smallest, found);
+            for (size_t c = 0; c < na + nb - 1; c++) {
+                sums[c] = sums[c] / 3 + found[c];
+            }
+            sums[2 * MAX + smallest] += t->star_pairs(na, units, nb, units + MAX, smallest, 300, 7);
+        }
+    }
+}
+
+static void far_corners(const koksma__kernel_table *t, size_t count, void *out)
+{
+    int16_t counts[MAX];
+    float xs[MAX];
+    uint32_t found[MAX + 1], *to = out;
+    for (size_t k = 0; k < count; k++) {
+        counts[k] = (int16_t)(100 * units[k]);
+        xs[k] = (float)(100 * units[MAX + k]);
+    }
+    for (int way = 0; way < 4; way++) {
+        const float sign = way % 2 ? 1 : -1;
+        *to = (uint32_t)t->far_corners(count, counts, xs, sign, sign * 1.01F, way < 2 ? 80 : 20, found);
+        memcpy(to + 1, found, *to * sizeof *found);
+        to += *to + 1;
+    }
+}
+
+/* The rows of all L2 discrepancies have such factors; the products are double-doubles to the last bit. */
+static void l2_linear(const koksma__kernel_table *t, size_t count, void *out)
+{
+    static const double rows[][4] = {{9, -12, -12, 0}, {25, 0, -12, 12}, {40, 0, 0, 0}, {37, 0, 6, -6}, {1, 0, 0, 3}};
+    double u[2 * MAX], *at = out;
+    for (size_t i = 0; i < 2 * MAX; i++) {
+        u[i] = i % 11 == 3 ? 0.5 : i % 13 == 5 ? 1 : units[i];
+    }
+    for (size_t r = 0; r < 5; r++, at += 2 * count) {
+        t->l2_linear(count, 1 + (int)(count % 5), u, 100, rows[r], at, at + count);
+    }
+}
+
+/* The fast forms agree with each other bit for bit. */
+TEST_CASE(l2_pairs_equal_reference)
+{
+    double g[2 * MAX], expected[2], got[2], first[2];
+    for (size_t i = 0; i < 2 * MAX; i++) {
+        g[i] = units[2 * MAX - 1 - i] - 0.3;
+    }
+    for (size_t n = 1; n <= MAX; n += 1 + n / 6) {
+        const int dim = 1 + (int)(n % (n <= 120 ? 5 : 2)); /* of 2 MAX numbers */
+        koksma__kernels_find("ref")->l2_pairs(n / 3, n, n, dim, units, g, -0.75, 0.5, expected);
+        for (size_t isa = 0; isa < 3; isa++) {
+            const koksma__kernel_table *fast = koksma__kernels_find(isas[isa]);
+            if (fast) {
+                fast->l2_pairs(n / 3, n, n, dim, units, g, -0.75, 0.5, got);
+                memcpy(first, isa ? first : got, sizeof first);
+                assert_memory_equal(first, got, sizeof got);
+                assert_near(expected[0] + expected[1], got[0] + got[1], 1e-15 * (double)(n * n));
+            }
+        }
+    }
+}
+
 #define TEST(name, most)                                                                                             \
     TEST_CASE(name##_equals_reference)                                                                               \
     {                                                                                                                \
         assert_equal_to_reference(name, most);                                                                       \
     }
 
+TEST(uniform, MAX)
+TEST(words_and_draws, MAX)
+TEST(permutation, 8 * MAX)
+TEST(nested_bits, MAX)
+TEST(cells_2d, MAX)
+TEST(star_sweep, 100)
+TEST(star_partition, MAX)
+TEST(far_corners, MAX)
+TEST(l2_linear, 120)
 TEST(quotients, MAX)
 TEST(steps, MAX)
 TEST(fractions, MAX)
