@@ -38,6 +38,17 @@ koksma_status koksma__scene_add_shape(koksma_scene *scene, const koksma__shape *
     return KOKSMA_OK;
 }
 
+koksma_status koksma__scene_begin(koksma_scene *scene, const char *title)
+{
+    const char *slash = strrchr(title, '/');
+    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
+    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
+    KOKSMA__REQUIRE_MEMORY(scene->lights && scene->materials, KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
+    snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : title);
+    scene->clamp = INFINITY;
+    return KOKSMA_OK;
+}
+
 koksma_status koksma__scene_add_light(koksma_scene *scene, koksma__light **out)
 {
     KOKSMA__FAIL_IF(scene->n_lights == KOKSMA__MAX_LIGHTS, KOKSMA_MALFORMED, "more than %d lights",

@@ -5,6 +5,10 @@
 
 #include "render/description.h"
 
+/* Makes the lists of materials and lights of an empty scene, and sets the title to what follows the last slash. Error:
+   MEMORY. */
+koksma_status koksma__scene_begin(koksma_scene *scene, const char *title);
+
 /* The index of the material with this name; -1 if there is none. */
 int koksma__find_material(const koksma_scene *scene, const char *name);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
  * Numbers that are read of scenes of pbrt, Mitsuba and glTF, by the cases of colours.txt: eta and k of metals, coefficients
- * of media, factors of daylight, textures within textures, how images are mapped, what a camera sees. Each form of one value
- * (numbers, pairs, samples at equal or listed wavelengths, textures, the names of Mitsuba 2) gives the same, and what is
- * beyond floats something finite.
+ * of media, factors of daylight, textures within textures, how images are mapped, what a camera sees. Each form of one
+ * value (numbers, pairs, samples at equal or listed wavelengths, textures, the names of Mitsuba 2) gives the same, and what
+ * is beyond floats something finite.
  */
 #include "render/materials/materials.h"
 #include "scene/import.h"

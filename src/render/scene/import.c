@@ -25,6 +25,7 @@
 #include "render/description_build.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"
+#include "render/medium.h"
 #include "render/scene_images.h"
 
 enum { MOST_STEPS = 1 << 26 };
@@ -646,6 +647,15 @@ void koksma__import_spot(koksma__text_place place, const double direction[3], do
     light->values[0] = outer_deg; /* angle_deg and edge */
     light->values[1] = 1 - inner_deg / outer_deg;
     light->values[2] = falloff;
+}
+
+void koksma__import_check_medium(koksma__text_place place, const char *whose)
+{
+    if (koksma__medium_check(place.im->scene)) {
+        place.im->scene->medium.is_there = false;
+        koksma__import_unknown(place, "the %s medium is ignored, because it would absorb all light of distant lights",
+                               whose);
+    }
 }
 
 bool koksma__import_normalise(double v[3])

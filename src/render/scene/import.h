@@ -295,6 +295,9 @@ void koksma__import_sky(koksma__text_place place, const char *name, double illum
 void koksma__import_camera(koksma__text_place place, const double matrix[12], double right,
                            const koksma__camera *lens);
 
+/* Leaves the scene's medium, which is `whose`, out with a warning if it may not be there. */
+void koksma__import_check_medium(koksma__text_place place, const char *whose);
+
 /* Gives a vector of any finite length the length 1; returns false if it has no direction. */
 bool koksma__import_normalise(double v[3]);
 

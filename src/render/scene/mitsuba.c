@@ -43,7 +43,10 @@ typedef struct reader {
 
 /* ---- Properties -------------------------------------------------------------------------------------------- */
 
-#define is koksma__mitsuba_is
+static bool is(const node *n, const char *tag)
+{
+    return koksma__mitsuba_is(n, tag);
+}
 
 static const char *type_of(const node *n)
 {
@@ -942,11 +945,7 @@ static void read_medium(reader *r, const node *n)
         to->in_shape = r->region.in_shape;
         to->is_ball = r->region.is_ball;
     }
-    if (koksma__medium_check(r->im->scene)) {
-        to->is_there = false;
-        koksma__import_unknown(n->place,
-                               "the sensor's medium is ignored, because it would absorb all light of distant lights");
-    }
+    koksma__import_check_medium(n->place, "sensor's");
 }
 
 static void shape(reader *r, const node *n, const double outer[12], int depth);

@@ -470,13 +470,20 @@ static koksma_status add_key(koksma_scene *scene, const double centre[3], double
     return KOKSMA_OK;
 }
 
-static koksma_status add_sky(koksma_scene *scene, double radiance)
+/* Makes the scene's sky, if it has one already, or else adds one. */
+static koksma_status set_sky(koksma_scene *scene, double radiance, koksma_image *image)
 {
     koksma__light *sky = NULL;
-    KOKSMA__TRY(koksma__scene_add_light(scene, &sky));
-    sky->kind = &koksma__light_environment;
-    sky->visible = true;
-    sky->radiance[0] = sky->radiance[1] = sky->radiance[2] = radiance;
+    for (size_t i = 0; i < scene->n_lights; i++) {
+        sky = scene->lights[i].kind == &koksma__light_environment ? &scene->lights[i] : sky;
+    }
+    KOKSMA__TRY(sky ? KOKSMA_OK : koksma__scene_add_light(scene, &sky));
+    const koksma_image *old = sky->image;
+    *sky = (koksma__light){.kind = &koksma__light_environment,
+                           .visible = true,
+                           .radiance = {radiance, radiance, radiance},
+                           .image = image};
+    koksma__scene_image_drop(scene, old);
     return KOKSMA_OK;
 }
 
@@ -526,7 +533,7 @@ static koksma_status complete(koksma_scene *scene, bool has_camera)
     }
     scene->studio.lights = 2;
     KOKSMA__TRY(add_key(scene, centre, radius));
-    KOKSMA__TRY(add_sky(scene, 0.4));
+    KOKSMA__TRY(set_sky(scene, 0.4, NULL));
     return has_camera ? KOKSMA_OK : add_ground(scene, centre, low_y, radius);
 }
 
@@ -542,7 +549,6 @@ static void take_down(koksma_scene *scene)
 koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, double radiance)
 {
     KOKSMA__REQUIRE(scene);
-    koksma__light *sky = NULL;
     koksma_image *pixels = NULL, read = {0};
     KOKSMA__FAIL_IF(!(radiance >= 0 && radiance <= BRIGHT), KOKSMA_ARGUMENT,
                     "a sky of radiance %g: it must be 0 to %g", radiance, BRIGHT);
@@ -560,16 +566,7 @@ koksma_status koksma_scene_set_sky(koksma_scene *scene, const char *image, doubl
         }
     }
     take_down(scene);
-    for (size_t i = 0; i < scene->n_lights; i++) {
-        sky = scene->lights[i].kind == &koksma__light_environment ? &scene->lights[i] : sky;
-    }
-    KOKSMA__TRY(sky ? KOKSMA_OK : koksma__scene_add_light(scene, &sky));
-    const koksma_image *old = sky->image;
-    *sky = (koksma__light){.kind = &koksma__light_environment,
-                           .visible = true,
-                           .radiance = {radiance, radiance, radiance},
-                           .image = pixels};
-    koksma__scene_image_drop(scene, old);
+    KOKSMA__TRY(set_sky(scene, radiance, pixels));
     const uint64_t parts[2] = {koksma__scene_hash(scene), koksma__hash(&radiance, sizeof radiance)};
     scene->hash = koksma__hash(parts, sizeof parts);
     koksma__scene_finish(scene);

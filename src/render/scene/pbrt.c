@@ -883,17 +883,12 @@ static void set_shutter(reader *r)
 /* Fills the scene with the medium that contains the camera. */
 static void set_medium(reader *r)
 {
-    koksma__medium *to = &r->im->scene->medium;
     size_t i;
     if (*r->camera_medium && koksma__names_find(&r->medium_names, r->camera_medium, strlen(r->camera_medium), &i) &&
         r->media[i].is_read) {
-        koksma__medium_init(to, r->media[i].absorption, r->media[i].scattering, r->media[i].g);
+        koksma__medium_init(&r->im->scene->medium, r->media[i].absorption, r->media[i].scattering, r->media[i].g);
     }
-    if (koksma__medium_check(r->im->scene)) {
-        to->is_there = false;
-        koksma__import_unknown(r->camera_place,
-                               "the camera's medium is ignored, because it would absorb all light of distant lights");
-    }
+    koksma__import_check_medium(r->camera_place, "camera's");
 }
 
 /* Whether the text has a line that begins with WorldEnd, which pbrt-v4 does not have. */

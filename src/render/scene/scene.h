@@ -17,9 +17,6 @@ void koksma__scene_fini(koksma_scene *scene);
 
 /* ---- Readers, each for an empty scene that the caller frees even after an error -------------------------------------- */
 
-/* Makes the lists of materials and lights, and sets the title to what follows the last slash. Error: MEMORY. */
-koksma_status koksma__scene_begin(koksma_scene *scene, const char *title);
-
 /* Fills a scene from a text; `name` is for error messages. */
 koksma_status koksma__scene_parse(const char *name, const char *text, size_t size, koksma_scene *scene);
 

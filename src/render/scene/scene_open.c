@@ -86,17 +86,6 @@ static koksma_status refuse_unknown(koksma_scene **out)
                         out);
 }
 
-koksma_status koksma__scene_begin(koksma_scene *scene, const char *title)
-{
-    const char *slash = strrchr(title, '/');
-    scene->lights = calloc(KOKSMA__MAX_LIGHTS, sizeof *scene->lights);
-    scene->materials = calloc(KOKSMA__MAX_MATERIALS, sizeof *scene->materials);
-    KOKSMA__REQUIRE_MEMORY(scene->lights && scene->materials, KOKSMA__MAX_MATERIALS * sizeof *scene->materials);
-    snprintf(scene->title, sizeof scene->title, "%s", slash ? slash + 1 : title);
-    scene->clamp = INFINITY;
-    return KOKSMA_OK;
-}
-
 /* ---- Scenes of other renderers: the ending of the file's name selects the reader -------------------------- */
 
 /* A number in the hash by which stored studies find a scene; it is raised when a change of the code makes another
