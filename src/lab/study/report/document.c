@@ -21,6 +21,7 @@
 #include "core/c_locale.h"
 #include "core/files.h"
 #include "core/status.h"
+#include "study/plan/plan.h"
 #include "study/report/page_text.h"
 
 void koksma__text_join(char *text, size_t size, const char *between, const char *more)
@@ -607,24 +608,37 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
 
 /* ---- The page ---------------------------------------------------------------------------------------------- */
 
-void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path)
+/* Joins a path of `size` characters, if it is absolute. */
+static void join_path(char folder[KOKSMA__FOLDER], const char *path, size_t size)
 {
-    const char *name = strrchr(path, '/');
-    const size_t length = name ? (size_t)(name + 1 - path) : 0;
     size_t same = 0;
-    if (*path != '/' || length >= KOKSMA__FOLDER) {
+    while (size && path[size - 1] != '/') {
+        size--;
+    }
+    if (*path != '/' || size >= KOKSMA__FOLDER) {
         return;
     }
     if (!*folder) {
-        snprintf(folder, KOKSMA__FOLDER, "%.*s", (int)length, path);
+        snprintf(folder, KOKSMA__FOLDER, "%.*s", (int)size, path);
     }
-    while (same < length && folder[same] == path[same]) {
+    while (same < size && folder[same] == path[same]) {
         same++;
     }
     while (folder[same - 1] != '/') { /* both begin with one */
         same--;
     }
     folder[same] = '\0';
+}
+
+void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *text)
+{
+    if (*text == '/') {
+        join_path(folder, text, strlen(text));
+        return;
+    }
+    for (size_t at = 0; (at = koksma__plan_path(text, at)) > 0;) {
+        join_path(folder, text + at, strcspn(text + at, ";,"));
+    }
 }
 
 void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLDER])

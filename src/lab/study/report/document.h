@@ -179,10 +179,10 @@ void koksma__doc_picture(koksma__document *d, const koksma_image *image, const c
 /* ---- The page ---------------------------------------------------------------------------------------------- */
 
 /* A page that is published does not show where its author keeps files. koksma__folder_join makes `folder`, at first empty,
-   the folder that it and an absolute path have in common, with a slash at its end; koksma__doc_hide_folder removes it from
-   all texts of a finished document, unless it is the root. */
+   the folder that it and the absolute paths of a text, a path or a pattern, have in common, with a slash at its end;
+   koksma__doc_hide_folder removes it from all texts of a finished document, unless it is the root. */
 enum { KOKSMA__FOLDER = 4096 };
-void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *path);
+void koksma__folder_join(char folder[KOKSMA__FOLDER], const char *text);
 void koksma__doc_hide_folder(koksma__document *d, const char folder[KOKSMA__FOLDER]);
 
 /* Returns the page with the JSON text in it, which the caller frees; NULL: out of memory. */

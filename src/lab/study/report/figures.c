@@ -258,8 +258,9 @@ static void add_figure(koksma__report *r, koksma__document *d, const koksma__fig
 static void write_figures(koksma__report *r, koksma__document *d)
 {
     const koksma__plan *plan = &r->study->plan;
+    const size_t *of = plan->parts[r->part].figures;
     koksma_adaptive_report *reports = koksma__report_memory(r, plan->n_figures, sizeof *reports);
-    for (size_t i = koksma__plan_of(r)->figures[0]; !r->status && i < koksma__plan_of(r)->figures[1]; i++) {
+    for (size_t i = of[0]; !r->status && i < of[1]; i++) {
         add_figure(r, d, &plan->figures[i], &reports[i]);
     }
     r->adaptive = reports;

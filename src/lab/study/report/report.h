@@ -44,12 +44,6 @@ void *koksma__report_memory(koksma__report *r, size_t n, size_t size);
 void *koksma__report_add(koksma__report *r, void *items, size_t *n, size_t size);
 void koksma__report_release(koksma__report *r);
 
-/* The plan that a section of each plan is about. */
-static inline const koksma__plan_part *koksma__plan_of(const koksma__report *r)
-{
-    return &r->study->plan.parts[r->part];
-}
-
 /* SHA-256 of the bytes that koksma_study_export writes as CSV. run: asked whether to go on, always with the fraction 0; may
    be NULL. Errors: those of the store, MEMORY, INTERRUPTED. */
 koksma_status koksma__rows_sha256(koksma__store *store, const koksma_run *run, char text[KOKSMA__SHA256_TEXT]);
@@ -179,10 +173,6 @@ koksma__verdict koksma__table_judge(const koksma__table *table, const koksma__ta
 /* The number of the note on a cell, from 1; 0: no note. n: the column's number of points in a table over several n,
    otherwise 0. */
 size_t koksma__table_note(const koksma__table *table, const char *pattern, long long n, int statistic);
-
-/* The log-log slope of the published numbers of a row in a table over several n, by least squares as ours; NaN if one of
-   them is missing. */
-double koksma__table_printed_slope(const koksma__table *table, const koksma__table_row *row);
 
 /* Sums over the z-values of a table. Chance may explain each z alone but not all of them together, for example if all
    have the same sign or all are large. Whether a cell counts does not depend on its z: all count but those of one set and

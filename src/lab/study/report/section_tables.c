@@ -182,11 +182,26 @@ static void add_table(koksma__report *r, koksma__document *d, const koksma__tabl
 
 /* ---- Discrepancies over several numbers of points ---------------------------------------------------------- */
 
+/* The log-log slope of the published numbers of a row, by least squares as ours; NaN if one of them is missing. */
+static double printed_slope(const koksma__table *t, const koksma__table_row *row)
+{
+    double x[KOKSMA__TABLE_PRINTED];
+    koksma__summary means[KOKSMA__TABLE_PRINTED];
+    for (size_t i = 0; i < t->n.n; i++) {
+        if (!(row->published[i].value > 0)) {
+            return NAN;
+        }
+        x[i] = (double)t->n.at[i];
+        means[i] = koksma__exactly(row->published[i].value);
+    }
+    return koksma__trend_of(x, means, t->n.n).slope.value;
+}
+
 /* Adds the row with the printed means; with `chart` their hollow marks, in the style of our curve, instead. */
 static void add_printed_line(koksma__document *d, koksma__document *chart, const koksma__table *t,
                              const koksma__table_row *row)
 {
-    const double slope = koksma__table_printed_slope(t, row);
+    const double slope = printed_slope(t, row);
     if (chart) {
         koksma__doc_series(chart, row->label, row->pattern, KOKSMA__SERIES_HOLLOW);
     } else {

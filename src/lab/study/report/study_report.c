@@ -52,7 +52,7 @@ static void add_sections(koksma__report *r, bool of_each_plan, koksma__document 
 /* Appends the sections of one plan, under the plan's title and description if the study has several plans. */
 static void add_plan(koksma__report *r, koksma__document *d)
 {
-    const koksma__plan_part *plan = koksma__plan_of(r);
+    const koksma__plan_part *plan = &r->study->plan.parts[r->part];
     const bool alone = r->study->plan.n_parts == 1;
     if (!alone) {
         koksma__doc_section(d, NULL, "%s", plan->title);
@@ -93,13 +93,10 @@ static koksma_status build(koksma__report *r, koksma__document *d)
     return r->status ? r->status : d->json.status;
 }
 
-/* Adds the paths of a pattern's text, of one use or of several. */
-static void join_paths(char folder[KOKSMA__FOLDER], const char *pattern)
+static void join_all(char folder[KOKSMA__FOLDER], const koksma__texts *texts)
 {
-    char path[KOKSMA_MAX_PATTERNS_TEXT];
-    for (size_t at = 0; (at = koksma__plan_path(pattern, at)) > 0;) {
-        snprintf(path, sizeof path, "%.*s", (int)strcspn(pattern + at, ";,"), pattern + at);
-        koksma__folder_join(folder, path);
+    for (size_t i = 0; i < texts->n; i++) {
+        koksma__folder_join(folder, texts->at[i]);
     }
 }
 
@@ -107,17 +104,11 @@ static void hide_folders(const koksma__plan *plan, koksma__document *d)
 {
     char folder[KOKSMA__FOLDER] = "";
     for (size_t i = 0; i < plan->n_discrepancies; i++) {
-        for (size_t k = 0; k < plan->discrepancies[i].patterns.n; k++) {
-            join_paths(folder, plan->discrepancies[i].patterns.at[k]);
-        }
+        join_all(folder, &plan->discrepancies[i].patterns);
     }
     for (size_t i = 0; i < plan->n_images; i++) {
-        for (size_t k = 0; k < plan->images[i].patterns.n; k++) {
-            join_paths(folder, plan->images[i].patterns.at[k]);
-        }
-        for (size_t k = 0; k < plan->images[i].scenes.n; k++) {
-            koksma__folder_join(folder, plan->images[i].scenes.at[k]);
-        }
+        join_all(folder, &plan->images[i].patterns);
+        join_all(folder, &plan->images[i].scenes);
     }
     koksma__doc_hide_folder(d, folder);
 }

@@ -133,20 +133,6 @@ koksma__verdict koksma__table_judge(const koksma__table *t, const koksma__table_
     return v;
 }
 
-double koksma__table_printed_slope(const koksma__table *t, const koksma__table_row *row)
-{
-    double x[KOKSMA__TABLE_PRINTED];
-    koksma__summary means[KOKSMA__TABLE_PRINTED];
-    for (size_t i = 0; i < t->n.n; i++) {
-        if (!(row->published[i].value > 0)) {
-            return NAN;
-        }
-        x[i] = (double)t->n.at[i];
-        means[i] = koksma__exactly(row->published[i].value);
-    }
-    return koksma__trend_of(x, means, t->n.n).slope.value;
-}
-
 void koksma__z_add(koksma__z_sums *sums, const koksma__verdict *v, const koksma__cell *cell)
 {
     if (!isfinite(v->z)) {

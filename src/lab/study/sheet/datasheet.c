@@ -11,7 +11,6 @@
 
 #include "core/clock.h"
 #include "core/status.h"
-#include "study/plan/plan.h"
 #include "study/sheet/sheet.h"
 
 static koksma_status put_head(koksma__sheet *sheet, koksma__document *d)
@@ -70,9 +69,7 @@ static koksma_status put_content(koksma__sheet *sheet, koksma__document *d)
     }
     koksma__doc_close(d);
     for (size_t i = 0; i < sheet->n_samplers; i++) {
-        const char *text = sheet->samplers[i]->text;
-        const size_t at = koksma__plan_path(text, 0);
-        koksma__folder_join(folder, at ? text + at : "");
+        koksma__folder_join(folder, sheet->samplers[i]->text);
     }
     for (size_t i = 0; sheet->options->scenes && i < sheet->options->n_scenes; i++) {
         koksma__folder_join(folder, sheet->options->scenes[i]);
