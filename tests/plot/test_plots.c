@@ -161,16 +161,6 @@ TEST_CASE(thirty_two_curves_differ)
     }
 }
 
-/* A point between two that are not finite has a mark; the others are a line. */
-TEST_CASE(isolated_points_are_marked)
-{
-    const double ys[] = {1, NAN, 3, NAN, 2, 2};
-    const koksma_curve curve = {.n = 6, .xs = (double[]){1, 2, 3, 4, 5, 6}, .ys = ys};
-    char *svg = chart_text(&(koksma_chart){.curves = &curve, .n_curves = 1});
-    assert_int_equal(count(svg, "<circle"), 2);
-    free(svg);
-}
-
 /* Every pattern has a colour of the palette, the same alone and beside any other family; up to COLOURS specs of a picture
    have different colours, and no two look alike as long as there are styles. */
 TEST_CASE(patterns_have_colours)

@@ -14,11 +14,10 @@ import sys
 import tempfile
 from pathlib import Path
 
-from schema import words
+from schema import complain, finish, words
 
 KOKSMA = Path(sys.argv[1]).resolve()
 PALETTE = Path(__file__).resolve().parents[3] / "src/lab/plot/palette.def"
-problems = 0
 
 # By theory: jittered falls as n^-0.75 and random as n^-0.5 in l2-star; a lattice of centres leaves bands in a checkerboard
 # at 45 degrees, and independent samples leave noise; and random samples err more than jittered ones everywhere.
@@ -96,12 +95,6 @@ CONCLUSIONS = [  # the words, the expected verdict, and the test
     ("adaptive true", "holds", {"kind": "adaptive", "figures": ["aligned", "shuffled"], "patterns": ["jittered"]}),
     ("adaptive false", "fails", {"kind": "adaptive", "figures": ["shuffled", "aligned"], "patterns": ["jittered"]}),
 ]
-
-
-def complain(text):
-    global problems
-    problems += 1
-    print(text)
 
 
 def blocks(content, under=()):
@@ -231,5 +224,4 @@ with tempfile.TemporaryDirectory() as folder:
     check_colours(report)
     check_slopes(report)
     check_refusals()
-print(f"{problems} problems with {len(CONCLUSIONS)} conclusions")
-sys.exit(1 if problems else 0)
+finish(f" with {len(CONCLUSIONS)} conclusions")

@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from schema import blocks, errors, words
+from schema import blocks, complain, errors, finish, words
 
 ROOT = Path(__file__).resolve().parents[3]
 KOKSMA = Path(sys.argv[1]).resolve()
@@ -21,13 +21,6 @@ PATTERNS = ["random", "jittered", "n-rooks", "regular", "halton", "sobol", "zare
 POINTS = {"id": "d", "patterns": PATTERNS, "measures": ["star", "l2-star"], "n": [4, 16, 64], "trials": 3}
 IMAGES = {"id": "i", "scenes": ["checker", "ball"], "patterns": PATTERNS, "spp": [4, 16, 64], "size": [8, 6], "trials": 3,
           "options": {"filter": ["box", "tent"]}, "references": [{"name": "c", "pattern": "jittered", "spp": 64}]}
-problems = 0
-
-
-def complain(text):
-    global problems
-    problems += 1
-    print(text)
 
 
 def lines_of(table, macro):
@@ -195,5 +188,4 @@ check_sections()
 check_singular()
 if not SANITIZED:
     check_documents()
-print(f"{problems} problems")
-sys.exit(problems > 0)
+finish()

@@ -7,37 +7,16 @@
 
 #include "study/report/document.h"
 
-/* Reads a text without escapes; returns what follows its closing quote. */
-static const char *read_said(const char *at, char *out, size_t size)
-{
-    const size_t n = strcspn(at, "\"");
-    snprintf(out, size, "%.*s", (int)n, at);
-    return at + n + 1;
-}
-
-/* Into `words`: the texts that stand in arrays, and the members "text". */
+/* Into `words`: the texts that stand in arrays, and the members "text"; none has escapes. */
 static const char *said(const koksma__document *d, char *words, size_t size)
 {
-    char key[64] = "", text[2048];
     size_t used = 0;
     words[0] = '\0';
-    for (const char *at = d->json.text; *at;) {
-        if (*at == '"') {
-            at = read_said(at + 1, text, sizeof text);
-            if (*at == ':') {
-                snprintf(key, sizeof key, "%.60s", text);
-                at++;
-                continue;
-            }
-            if (!key[0] || !strcmp(key, "text")) {
-                used += (size_t)snprintf(words + used, size - used, "%s", text);
-            }
-            key[0] = '\0';
-        } else {
-            if (strchr("[{}]", *at)) {
-                key[0] = '\0';
-            }
-            at++;
+    for (const char *at = d->json.text, *end; (at = strchr(at, '"')); at = end) {
+        const size_t n = strcspn(at + 1, "\"");
+        end = at + n + 2;
+        if (*end != ':' && (at[-1] != ':' || !strncmp(at - 7, "\"text\":", 7))) {
+            used += (size_t)snprintf(words + used, size - used, "%.*s", (int)n, at + 1);
         }
     }
     return words;

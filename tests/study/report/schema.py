@@ -1,11 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The part of JSON Schema (2020-12) that docs/report.schema.json and docs/datasheet.schema.json use; and all blocks and the
-words of such a document."""
+"""The part of JSON Schema (2020-12) that docs/report.schema.json and docs/datasheet.schema.json use; all blocks and the
+words of such a document; and how a test complains and ends."""
 import re
+import sys
 
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
 KNOWN = {"$schema", "$defs", "$ref", "title", "type", "required", "additionalProperties", "properties", "const", "enum", "oneOf",
          "items", "minItems", "maxItems", "minimum", "pattern"}
+
+
+problems = []
+
+
+def complain(text):
+    problems.append(text)
+    print(text)
+
+
+def finish(of=""):
+    print(f"{len(problems)} problems{of}")
+    sys.exit(len(problems) > 0)
 
 
 def blocks(content):

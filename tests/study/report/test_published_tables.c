@@ -106,20 +106,6 @@ TEST_CASE(notes_are_of_columns)
     assert_int_equal(koksma__table_note(&t.table, "jittered", 256, 0), 0);
 }
 
-/* Mitchell 1992, table 1, dart throwing: the least-squares line through (log n, log mean), by hand
-   sum (x - x_mean) (y - y_mean) / sum (x - x_mean)^2 = -6.9195 / 10.7511. */
-TEST_CASE(slopes_are_of_all_printed_means)
-{
-    one_row t;
-    set_up(&t, 0.049, 0.0005, -1);
-    t.table.n.n = 3;
-    assert_true(isnan(koksma__table_printed_slope(&t.table, &t.row)));
-    t.row.published[2].value = 0.00254;
-    assert_true(isnan(koksma__table_printed_slope(&t.table, &t.row)));
-    t.row.published[1].value = 0.00799;
-    assert_near(koksma__table_printed_slope(&t.table, &t.row), -0.64361, 1e-4);
-}
-
 /* Which cells a joint test takes does not depend on their z, only on notes and on whether there is chance in them. */
 TEST_CASE(joint_tests_do_not_choose_by_z)
 {
