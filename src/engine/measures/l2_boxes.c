@@ -7,7 +7,7 @@
  *     a(u) = int_0^1 K(u, v) dv,  c = int_0^1 a(u) du.
  *
  * The discrepancies differ only in the kernel K, whose coefficients are in the table row (see
- * measures/l2/l2.h); l2/l2_value.c chooses the method by n and dim. Limits: the three terms cancel. In one
+ * measures/l2/l2.h); l2/l2_range.c chooses the method by n and dim. Limits: the three terms cancel. In one
  * and two dimensions the sums are exact or have 106 bits, and the relative error of the value is 1e-11 for 10^6
  * points. In more dimensions the error of the square is about 1e-16 times its terms (l2-star: 1e-17).
  */

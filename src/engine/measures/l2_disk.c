@@ -154,7 +154,7 @@ static koksma_status eval(const koksma_points *points, const koksma_args *args, 
             koksma__sum_add(&sum, p.blocks[b].total);
             koksma__sum_add(&sum, p.blocks[b].lost);
         }
-        koksma__sum_add(&total, (cube ? koksma__ball_overlap(law, p.r, 0) : koksma__disk_overlap(law, p.r, 0)) / n);
+        koksma__sum_add(&total, (cube ? koksma__ball_overlap(law, p.r, 0) : koksma__disk_area(law, p.r)) / n);
         koksma__sum_add(&total, 2 * koksma__sum_value(&sum) / n / n);
         koksma__sum_add(&total, -(cube ? koksma__ball_square(law, p.r) : koksma__disk_square(law, p.r)));
         out->square = koksma__not_below_0(koksma__sum_value(&total));

@@ -17,9 +17,8 @@ extern const char *const koksma__disk_laws[]; /* the values of the parameter `la
    1/2 for the other laws. */
 double koksma__disk_radius(koksma__disk_law law, double r);
 
-/* Returns the area of the overlap of two equal disks whose centres are sqrt(distance2) apart, averaged over their
-   radius, which has the given law; it is 0 for distances of 2r and more. */
-double koksma__disk_overlap(koksma__disk_law law, double r, double distance2);
+/* Returns the area of a disk, averaged over its radius. */
+double koksma__disk_area(koksma__disk_law law, double r);
 
 /* Returns the derivative of the mean overlap of two disks (dim = 2) or balls (dim = 3) by the distance of their
    centres. */

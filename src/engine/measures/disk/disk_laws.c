@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * Integrals over the distributions ("laws") of the radius of random disks and balls: the mean overlap of two disks of
- * the same random radius whose centres are a given distance apart, and the mean of the squared area. These integrals
- * have closed forms in h = distance / 2 and s = sqrt(r^2 - h^2): two disks overlap in a lens of area 2 r^2 atan2(s,
- * h) - 2 h s, which is integrated over the distribution of r.
+ * Integrals over the distributions ("laws") of the radius of random disks and balls: the mean overlap of two balls of
+ * the same random radius whose centres are a given distance apart, and the means of the area and its square. Two disks
+ * overlap in a lens of area 2 r^2 atan2(s, h) - 2 h s, h = distance / 2 and s = sqrt(r^2 - h^2), which the kernel
+ * disk_overlaps integrates over the distribution of r.
  */
 #include "measures/disk/disk.h"
 
@@ -19,21 +19,11 @@ double koksma__disk_radius(koksma__disk_law law, double r)
     return r > 0 ? r : law == KOKSMA__DISKS_FIXED ? 0.25 : 0.5;
 }
 
-double koksma__disk_overlap(koksma__disk_law law, double r, double distance2)
+double koksma__disk_area(koksma__disk_law law, double r)
 {
-    const double h = sqrt(distance2) / 2;
-    if (h >= r) {
-        return 0;
-    }
-    const double s = sqrt((r - h) * (r + h)), angle = koksma__atan2(s, h);
-    if (law == KOKSMA__DISKS_FIXED) {
-        return 2 * r * r * angle - 2 * h * s;
-    }
-    if (law == KOKSMA__DISKS_AREA) {
-        return (r * r * r * r * angle - 5 * h * s * s * s / 3 - h * h * h * s) / (r * r);
-    }
-    const double logarithm = h > 0 ? h * h * h * koksma__log((r + s) / h) : 0;
-    return (2 * r * r * r * angle - 4 * h * r * s + 2 * logarithm) / (3 * r);
+    return law == KOKSMA__DISKS_FIXED    ? 2 * r * r * M_PI_2
+           : law == KOKSMA__DISKS_RADIUS ? 2 * r * r * r * M_PI_2 / (3 * r)
+                                         : r * r * r * r * M_PI_2 / (r * r);
 }
 
 double koksma__disk_square(koksma__disk_law law, double r)

@@ -14,12 +14,6 @@
    O(n^(2d-1)). If a time limit ends the search, out has a lower and an upper bound. Errors: N, MEMORY, INTERRUPTED. */
 koksma_status koksma__extreme_small(const koksma_points *points, const koksma_run *run, koksma_value *out);
 
-/* ---- extreme_strip.c --------------------------------------------------------------------------------------- */
-
-/* Finds the best box between x = left and x = right and writes it to out; the points x[i], y[i] are in order of y. */
-void koksma__extreme_of_strip(size_t n, const double *x, const double *y, double left, double right, bool closed,
-                              koksma_value *out);
-
 /* ---- extreme_plane.c --------------------------------------------------------------------------------------- */
 
 /* Writes the largest |#/n - volume| over all boxes to out, with its witness, in O(n^2 log^2 n) at worst, by branch

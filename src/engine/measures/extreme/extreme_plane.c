@@ -480,6 +480,46 @@ static koksma_status prepare(plane *p, const koksma_points *points, const koksma
     return status ? status : prepare_sweep(p, run, order, order + p->n);
 }
 
+/* Finds the best box between x = left and x = right again, with its value and witness; the points are in order of y. */
+static void box_of_strip(size_t n, const double *x, const double *y, double left, double right, bool closed,
+                         koksma_value *out)
+{
+    double low = 0, low_at = 0;
+    size_t inside = 0, low_inside = 0;
+    bool any = !closed;
+    out->value = -1;
+    for (size_t i = 0; i < n + !closed; i++) {
+        const double up = i < n ? y[i] : 1, area = (right - left) * up;
+        const bool in = i < n && (closed ? x[i] >= left && x[i] <= right : x[i] > left && x[i] < right);
+        if (closed && in && (!any || (double)inside / (double)n - area < low)) {
+            low = (double)inside / (double)n - area;
+            low_at = up;
+            low_inside = inside;
+            any = true;
+        }
+        inside += closed && in;
+        const size_t count = inside - low_inside;
+        const double volume = (right - left) * (up - low_at), share = (double)count / (double)n;
+        const double value = closed ? share - volume : volume - share;
+        if (any && value > out->value) {
+            out->value = value;
+            out->witness = (koksma_witness){.kind = KOKSMA_WITNESS_BOX,
+                                            .dim = 2,
+                                            .closed = closed,
+                                            .count = count,
+                                            .volume = volume,
+                                            .lo = {left, low_at},
+                                            .hi = {right, up}};
+        }
+        inside += !closed && in;
+        if (!closed && area - (double)inside / (double)n < low) {
+            low = area - (double)inside / (double)n;
+            low_at = up;
+            low_inside = inside;
+        }
+    }
+}
+
 koksma_status koksma__extreme_plane(const koksma_points *points, const koksma_run *run, koksma_value *out)
 {
     return koksma__extreme_plane_by(KOKSMA__EXTREME_EITHER, points, run, out);
@@ -509,7 +549,7 @@ koksma_status koksma__extreme_plane_by(koksma__extreme_method method, const koks
             best = p.best[block].value > best.value ? p.best[block] : best;
             upper = fmax(upper, p.upper[block]);
         }
-        koksma__extreme_of_strip(n, p.x, p.y, p.levels[best.strip.a], p.levels[best.strip.b], best.closed, out);
+        box_of_strip(n, p.x, p.y, p.levels[best.strip.a], p.levels[best.strip.b], best.closed, out);
         out->exact = upper <= best.value;
         out->lower = out->value;
         out->upper = fmax(out->value, upper / (double)n);

@@ -42,13 +42,6 @@ koksma_status koksma__l2_by_pairs(const koksma__l2_row *row, const koksma_points
 double koksma__l2_combine(const koksma__l2_row *row, int dim, size_t n, koksma__dd linear,
                           const koksma__sum *over_pairs);
 
-/* ---- l2_value.c -------------------------------------------------------------------------------------------- */
-
-/* Writes the value and its square to out, in O(n log n) for d <= 2 unless n is small, in O(n log^(d-1) n) for d = 3
-   and 4 and large n, else in O(n^2 d). Errors: DIM, MEMORY, INTERRUPTED. */
-koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
-                         koksma_value *out);
-
 /* ---- l2_gradient.c ----------------------------------------------------------------------------------------- */
 
 /* Computes the square of an L2 discrepancy by sums over pairs, and its derivatives by all coordinates, in O(n^2 d).
@@ -63,6 +56,11 @@ koksma_status koksma__l2_gradient(const koksma__l2_row *row, const koksma_points
    of a point, is beyond this range. */
 koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
                                         koksma_value *out);
+
+/* Writes the value and its square to out, in O(n log n) for d <= 2 unless n is small, in O(n log^(d-1) n) for d = 3
+   and 4 and large n, else in O(n^2 d). Errors: DIM, MEMORY, INTERRUPTED. */
+koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                         koksma_value *out);
 
 /* ---- l2_sort.c --------------------------------------------------------------------------------------------- */
 

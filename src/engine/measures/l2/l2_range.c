@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /*
- * L2 discrepancies in hundreds of dimensions, where terms may be beyond the range of doubles. With the formula and
- * the letters of l2_pairs.h, let M be the larger of c^d and max_i prod_k K(x_ik, x_ik). Then no term exceeds M: as K
- * is positive definite, |K(x, y)|^2 <= K(x, x) K(y, y) and a(x)^2 <= K(x, x) c (Cauchy and Schwarz). If M is far from
- * 1, the one-dimensional kernel is multiplied by a factor f near M^(-1/d) that has 5 bits, so that the products with
- * the coefficients in the table are exact. The sum is then f^d times the square, so its root is divided by f^(d/2).
- * The root has half the exponent of the square, so it is in the range of doubles in more dimensions.
+ * The value of an L2 discrepancy by the method that suits n and dim, which is chosen at the end, and by sums over pairs
+ * in hundreds of dimensions, where terms may be beyond the range of doubles. With the formula and the letters of
+ * l2_pairs.h, let M be the larger of c^d and max_i prod_k K(x_ik, x_ik). Then no term exceeds M: as K is positive
+ * definite, |K(x, y)|^2 <= K(x, x) K(y, y) and a(x)^2 <= K(x, x) c (Cauchy and Schwarz). If M is far from 1, the
+ * one-dimensional kernel is multiplied by a factor f near M^(-1/d) that has 5 bits, so that the products with the
+ * coefficients in the table are exact. The sum is then f^d times the square, so its root is divided by f^(d/2). The
+ * root has half the exponent of the square, so it is in the range of doubles in more dimensions.
  */
 #include "measures/l2/l2.h"
 
@@ -115,4 +116,33 @@ koksma_status koksma__l2_value_by_pairs(const koksma__l2_row *row, const koksma_
     double square = NAN;
     const koksma_status status = koksma__l2_by_pairs(&scaled, points, run, &square);
     return status ? status : unscale(row, koksma__not_below_0(square), -dim * koksma__log2(f), dim, out);
+}
+
+/* ---- The choice of a method ------------------------------------------------------------------------------------ */
+
+enum { SORT_FROM = 256 };
+
+/* Returns whether to use divide and conquer. The table has the least n from which divide and conquer is faster than
+   summing pairs (measured with AVX-512), by dimension and by the number of products of the kernel. Above n = 2^24 the
+   lists of divide and conquer would take gigabytes. */
+static bool divides(const koksma__l2_row *row, const koksma_points *points)
+{
+    static const size_t from[][3] = {{3072, 6144, 16384}, {8192, 49152, 131072}};
+    const int ranks = koksma__l2_ranks(row);
+    return points->dim >= 3 && points->dim <= KOKSMA__L2_DIVIDE_DIM &&
+           points->n >= from[points->dim - 3][ranks - 1] && points->n <= (size_t)1 << 24;
+}
+
+koksma_status koksma__l2(const koksma__l2_row *row, const koksma_points *points, const koksma_run *run,
+                         koksma_value *out)
+{
+    const bool sort = points->dim <= 2 && points->n >= SORT_FROM && points->n < (size_t)1 << 28;
+    if (!sort && !divides(row, points)) {
+        return koksma__l2_value_by_pairs(row, points, run, out);
+    }
+    const koksma_status status =
+        (sort ? koksma__l2_by_sorting : koksma__l2_by_dividing)(row, points, run, &out->square);
+    out->square = koksma__not_below_0(out->square);
+    out->value = sqrt(out->square);
+    return status;
 }
