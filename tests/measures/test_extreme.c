@@ -237,19 +237,6 @@ TEST_CASE(witness_of_a_grid)
     }
 }
 
-TEST_CASE(short_time_gives_bounds)
-{
-    koksma_points p = test_points("jittered", 256, 2, 3);
-    koksma_spec spec;
-    koksma_value exact, cut;
-    assert_ok(koksma_measure_spec("extreme", &spec));
-    assert_ok(koksma_evaluate(&spec, &p, NULL, &exact));
-    assert_true(exact.exact && exact.upper == exact.value && exact.lower == exact.value);
-    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.time_limit_s = 1e-6}, &cut));
-    assert_true(cut.lower <= exact.value + 1e-15 && cut.upper >= exact.value - 1e-15);
-    koksma_points_fini(&p);
-}
-
 /* Time that passes by a second whenever somebody asks: what a limit allows does not depend on the machine. */
 static double seconds_asked;
 

@@ -129,15 +129,23 @@ TEST_CASE(partition_equals_sweep)
 
 TEST_CASE(short_time_gives_bounds)
 {
-    koksma_points p = test_points("random", 400, 4, 2);
-    koksma_spec spec;
-    koksma_value exact, cut;
-    assert_ok(koksma_measure_spec("star", &spec));
-    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &exact));
-    assert_true(exact.exact && exact.lower == exact.value && exact.upper == exact.value);
-    assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1, .time_limit_s = 0.02}, &cut));
-    assert_true(cut.lower <= exact.value && cut.upper >= exact.value && cut.upper <= 1 && cut.value == cut.lower);
-    koksma_points_fini(&p);
+    static const struct {
+        const char *measure, *pattern;
+        size_t n;
+        int dim;
+        double limit_s;
+    } cases[] = {{"star", "random", 400, 4, 0.02}, {"extreme", "jittered", 256, 2, 1e-6}};
+    for (size_t c = 0; c < 2; c++) {
+        koksma_points p = test_points(cases[c].pattern, cases[c].n, cases[c].dim, 2);
+        koksma_spec spec;
+        koksma_value exact, cut;
+        assert_ok(koksma_measure_spec(cases[c].measure, &spec));
+        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1}, &exact));
+        assert_true(exact.exact && exact.lower == exact.value && exact.upper == exact.value);
+        assert_ok(koksma_evaluate(&spec, &p, &(koksma_run){.threads = 1, .time_limit_s = cases[c].limit_s}, &cut));
+        assert_true(cut.lower <= exact.value + 1e-15 && cut.upper >= exact.value - 1e-15 && cut.value == cut.lower);
+        koksma_points_fini(&p);
+    }
 }
 
 /* Even when there is no time for a first look at anything, the bounds are those of some box. */
