@@ -7,20 +7,30 @@
 
 #include <koksma/koksma.h>
 #include <koksma/render.h>
+#include <koksma/study.h>
 
-/* The scenes that the plans of a study name. Each file is opened once, in whatever blocks and under whatever names the
-   plans name it, because a file of some kilobytes may stand for a scene of two gigabytes. */
+/* A scene that the plan uses; `name` is its spelling in the plan. */
+typedef struct koksma__study_scene {
+    const char *name;
+    koksma_scene *scene;
+    char hash[24];
+    int width, height;
+    koksma_rank_renderer render; /* a function that calls another renderer, or NULL for this library's */
+    void *render_context;
+} koksma__study_scene;
 
-/* The scenes that were opened; zeroed at first. */
+/* The scenes that were opened, each once in whatever blocks plans name it; zeroed at first. */
 typedef struct koksma__scene_files {
-    void *tree; /* of tsearch(3) */
-    size_t n;
+    void *tree;                 /* of tsearch(3) */
     uint64_t bytes, file_bytes; /* what all scenes take, and the files that they are from */
 } koksma__scene_files;
 
-/* Gives the scene of this name or path, which a plan names and which `files` owns. All scenes may take 4 GiB together
-   or, if that is more, 64 times their files. Errors: those of koksma_scene_open; MALFORMED for more. */
-koksma_status koksma__scene_files_open(koksma__scene_files *files, const char *name, koksma_scene **out);
+/* Opens the scene of this name or path, which a plan names. All scenes may take 4 GiB together or, if that is more, 64
+   times their files. Errors: those of koksma_scene_open; MALFORMED for more. */
+koksma_status koksma__scene_files_open(koksma__scene_files *files, const char *name);
+
+/* The open scene of this name; NULL if there is none. */
+const koksma__study_scene *koksma__scene_files_find(const koksma__scene_files *files, const char *name);
 
 void koksma__scene_files_fini(koksma__scene_files *files);
 
@@ -253,6 +263,7 @@ typedef struct koksma__plan_trials {
     /* the plan of a store, which an older version may have accepted: that a pattern or measure refuses a number of points
        is no error, so that the rows stay readable */
     bool stored;
+    bool of_images;              /* whether the patterns of a table's rows and notes are those of images */
     koksma__plan_totals *totals; /* of the study; NULL: this plan is alone */
 } koksma__plan_trials;
 

@@ -58,7 +58,7 @@ static koksma_status parse_group(const koksma__json_node *node, const koksma__pl
     koksma__scene_group *g = item;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "title", true, &g->title);
-    return status ? status : koksma__plan_texts(node, "scenes", NULL, &g->scenes);
+    return status ? status : koksma__plan_texts(node, "scenes", NULL, true, false, &g->scenes);
 }
 
 /* Fails unless the question has the members that its kind needs, and no member that its kind does not take. */
@@ -90,7 +90,7 @@ koksma_status koksma__plan_question(const koksma__json_node *node, const koksma_
     status = status ? status : koksma__plan_text(node, "title", true, &q->title);
     status = status ? status : koksma__plan_text(node, "discrepancies", false, &q->discrepancies);
     status = status ? status : koksma__plan_text(node, "images", false, &q->images);
-    status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, &q->metric);
+    status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, false, &q->metric);
     status = status ? status : parse_kind(node, koksma__question_kinds, &q->kind);
     status = status ? status : check_fields(node, q);
     return status ? status
@@ -187,12 +187,6 @@ static koksma_status check_members(const koksma__json_node *node, const koksma__
     return KOKSMA_OK;
 }
 
-static koksma_status parse_list(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                bool stored, koksma__texts *out)
-{
-    return koksma__json_has(node, key) ? koksma__plan_patterns(node, key, parser, stored, out) : KOKSMA_OK;
-}
-
 koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "says",     "kind",   "tables",  "by",
@@ -205,15 +199,17 @@ koksma_status koksma__plan_conclusion(const koksma__json_node *node, const koksm
     status = status ? status : koksma__plan_text(node, "remark", false, &c->remark);
     status = status ? status : koksma__plan_text(node, "images", false, &c->images);
     status = status ? status : koksma__plan_text(node, "discrepancies", false, &c->discrepancies);
-    status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, &c->metric);
-    status = status ? status : parse_list(node, "tables", NULL, stored, &c->tables);
-    status = status ? status : parse_list(node, "by", NULL, stored, &c->by);
-    status = status ? status : parse_list(node, "than", NULL, stored, &c->than);
-    status = status ? status : parse_list(node, "figures", NULL, stored, &c->figures);
-    status = status ? status : parse_list(node, "against", koksma__image_pattern_text, stored, &c->against);
-    status = status ? status : parse_list(node, "beside", koksma__image_pattern_text, stored, &c->beside);
+    status = status ? status : koksma__plan_spec(node, "metric", koksma__metric_text, false, false, &c->metric);
+    status = status ? status : koksma__plan_texts(node, "tables", NULL, false, stored, &c->tables);
+    status = status ? status : koksma__plan_texts(node, "by", NULL, false, stored, &c->by);
+    status = status ? status : koksma__plan_texts(node, "than", NULL, false, stored, &c->than);
+    status = status ? status : koksma__plan_texts(node, "figures", NULL, false, stored, &c->figures);
     status =
-        status ? status : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, stored, &c->patterns);
+        status ? status : koksma__plan_texts(node, "against", koksma__image_pattern_text, false, stored, &c->against);
+    status =
+        status ? status : koksma__plan_texts(node, "beside", koksma__image_pattern_text, false, stored, &c->beside);
+    status = status ? status
+                    : koksma__plan_texts(node, "patterns", koksma__image_pattern_text, true, stored, &c->patterns);
     status = status ? status : parse_kind(node, koksma__conclusion_kinds, &c->kind);
     return status ? status : check_members(node, c);
 }

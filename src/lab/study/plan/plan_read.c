@@ -29,26 +29,30 @@ enum { MAX_N = 1 << 20 };
 #define MIN_EXPOSURE 1e-3
 #define MAX_EXPOSURE 1e3
 
-static koksma_status get_wholes(const koksma__json_node *node, const char *key, size_t n, long long *out)
+/* Reads a list of n numbers of at least `least`, if there is one. */
+static koksma_status get_wholes(const koksma__json_node *node, const char *key, size_t n, long long least,
+                                long long *out)
 {
     koksma__json_node list;
     size_t length;
-    koksma_status status = koksma__json_member(node, key, &list);
-    status = status ? status : koksma__json_length(&list, n, &length);
-    KOKSMA__JSON_FAIL_IF(!status && length != n, &list, "it needs %zu numbers", n);
-    for (size_t i = 0; !status && i < n; i++) {
-        const koksma__json_node item = koksma__json_item(&list, i);
-        status = koksma__json_whole(&item, 0, KOKSMA_MAX_IMAGE_SIDE, &out[i]);
+    if (!koksma__json_has(node, key)) {
+        return KOKSMA_OK;
     }
-    return status;
+    KOKSMA__TRY(koksma__json_member(node, key, &list));
+    KOKSMA__TRY(koksma__json_length(&list, SIZE_MAX, &length));
+    KOKSMA__JSON_FAIL_IF(length != n, &list, "it takes %zu numbers, but has %zu items", n, length);
+    for (size_t i = 0; i < n; i++) {
+        const koksma__json_node item = koksma__json_item(&list, i);
+        KOKSMA__TRY(koksma__json_whole(&item, least, KOKSMA_MAX_IMAGE_SIDE, &out[i]));
+    }
+    return KOKSMA_OK;
 }
 
 static koksma_status check_words(const koksma__json_node *node, const koksma__plan_trials *trials,
                                  const koksma__figure *f)
 {
     koksma_adaptive_options adaptive;
-    koksma_scene *scene;
-    koksma_status status = f->scene ? koksma__scene_files_open(&trials->totals->scenes, f->scene, &scene) : KOKSMA_OK;
+    koksma_status status = f->scene ? koksma__scene_files_open(&trials->totals->scenes, f->scene) : KOKSMA_OK;
     if (!status && f->adaptive) {
         status = koksma_adaptive_parse(f->adaptive, &adaptive);
         if (!status && adaptive.method->own_samples && !koksma__image_pattern_is_one(f->pattern)) {
@@ -106,22 +110,15 @@ static koksma_status parse_figure(const koksma__json_node *node, const koksma__p
     status = status ? status : koksma__plan_text(node, "adaptive", false, &f->adaptive);
     status = status ? status : koksma__plan_text(node, "warp", false, &f->warp);
     status = status ? status : koksma__plan_text(node, "printed", false, &f->printed);
-    status = status
-                 ? status
-                 : koksma__plan_pattern(node, "pattern", f->scene ? koksma__image_pattern_text : koksma__pattern_text,
+    status = status ? status
+                    : koksma__plan_spec(node, "pattern", f->scene ? koksma__image_pattern_text : koksma__pattern_text,
                                         true, trials->stored, &f->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", true, 1, MAX_N, &f->n);
     status = status ? status : koksma__json_get_flag(node, "cells", false, &f->cells);
     status = status ? status : get_lines(node, f);
-    if (!status && koksma__json_has(node, "strata")) {
-        status = get_wholes(node, "strata", 2, f->strata);
-    }
-    if (!status && koksma__json_has(node, "detail")) {
-        status = get_wholes(node, "detail", 4, f->detail);
-    }
-    if (!status && koksma__json_has(node, "spaces")) {
-        status = koksma__plan_texts(node, "spaces", NULL, &f->spaces);
-    }
+    status = status ? status : get_wholes(node, "strata", 2, 0, f->strata);
+    status = status ? status : get_wholes(node, "detail", 4, 0, f->detail);
+    status = status ? status : koksma__plan_texts(node, "spaces", NULL, false, false, &f->spaces);
     status =
         status ? status : koksma__json_get_number(node, "exposure", false, MIN_EXPOSURE, MAX_EXPOSURE, &f->exposure);
     status = status ? status : koksma__variants_parse(node, &variants);
@@ -152,10 +149,8 @@ static koksma_status parse_figure(const koksma__json_node *node, const koksma__p
 static koksma_status parse_metrics(const koksma__json_node *root, koksma__plan *plan)
 {
     static const char *const keys[] = {"metric", "metrics"};
-    koksma_status status = koksma__plan_spec(root, "metric", koksma__metric_text, false, &plan->metric);
-    if (!status && koksma__json_has(root, "metrics")) {
-        status = koksma__plan_texts(root, "metrics", koksma__metric_text, &plan->metrics);
-    }
+    koksma_status status = koksma__plan_spec(root, "metric", koksma__metric_text, false, false, &plan->metric);
+    status = status ? status : koksma__plan_texts(root, "metrics", koksma__metric_text, false, false, &plan->metrics);
     for (size_t i = 0; !status && !plan->n_images && i < sizeof keys / sizeof *keys; i++) {
         koksma__json_node node;
         if (koksma__json_has(root, keys[i])) {
@@ -282,15 +277,11 @@ static koksma_status check_warps(const koksma__json_node *node, const koksma__di
 static koksma_status parse_measures(const koksma__json_node *node, koksma__discrepancy_block *b)
 {
     koksma__texts errors = {0};
-    koksma_status status = KOKSMA_OK;
     const bool integrands = koksma__json_has(node, "integrands");
-    if (!integrands || koksma__json_has(node, "measures")) {
-        status = koksma__plan_texts(node, "measures", koksma__measure_text, &b->measures);
-    }
-    if (!status && integrands) {
-        status = koksma__plan_texts(node, "integrands", koksma__error_text, &errors);
-        status = status ? status : koksma__plan_join(&b->measures, &errors);
-    }
+    koksma_status status =
+        koksma__plan_texts(node, "measures", koksma__measure_text, !integrands, false, &b->measures);
+    status = status ? status : koksma__plan_texts(node, "integrands", koksma__error_text, false, false, &errors);
+    status = status || !integrands ? status : koksma__plan_join(&b->measures, &errors);
     koksma__texts_fini(&errors);
     return status;
 }
@@ -303,12 +294,10 @@ static koksma_status parse_discrepancy(const koksma__json_node *node, const koks
     long long dim = 2;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
-    status =
-        status ? status : koksma__plan_patterns(node, "patterns", koksma__pattern_text, trials->stored, &b->patterns);
+    status = status ? status
+                    : koksma__plan_texts(node, "patterns", koksma__pattern_text, true, trials->stored, &b->patterns);
     status = status ? status : parse_measures(node, b);
-    if (!status && koksma__json_has(node, "warps")) {
-        status = koksma__plan_texts(node, "warps", NULL, &b->warps);
-    }
+    status = status ? status : koksma__plan_texts(node, "warps", NULL, false, false, &b->warps);
     status = status ? status : koksma__plan_wholes(node, "n", 1, (long long)KOKSMA_MAX_COORDINATES, &b->n);
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &dim);
     status = status ? status : parse_trials(node, trials, &b->trials);
@@ -325,9 +314,9 @@ static koksma_status parse_reference(const koksma__json_node *node, const koksma
     r->replicates = 1;
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_text(node, "name", true, &r->name);
-    status =
-        status ? status
-               : koksma__plan_pattern(node, "pattern", koksma__image_pattern_text, true, trials->stored, &r->pattern);
+    status = status
+                 ? status
+                 : koksma__plan_spec(node, "pattern", koksma__image_pattern_text, true, trials->stored, &r->pattern);
     status = status ? status : koksma__json_get_whole(node, "spp", true, 1, MAX_SPP, &r->spp);
     status = status ? status : koksma__json_get_whole(node, "replicates", false, 1, 1000000, &r->replicates);
     KOKSMA__JSON_FAIL_IF(!status && strlen(r->name) > MAX_NAME, node, "the name has more than %d characters",
@@ -344,34 +333,13 @@ static koksma_status check_scenes(const koksma__json_node *node, const koksma__p
                                   const koksma__texts *scenes)
 {
     koksma__json_node list;
-    koksma_scene *scene;
     koksma_status status = koksma__json_member(node, "scenes", &list);
     for (size_t i = 0; !status && i < scenes->n; i++) {
         const koksma__json_node item = koksma__json_item(&list, i);
-        status = koksma__scene_files_open(&trials->totals->scenes, scenes->at[i], &scene);
+        status = koksma__scene_files_open(&trials->totals->scenes, scenes->at[i]);
         status = status ? koksma__json_fail_in(&item, status) : KOKSMA_OK;
     }
     return status;
-}
-
-static koksma_status parse_size(const koksma__json_node *node, koksma__image_block *b)
-{
-    koksma__json_node size;
-    size_t length;
-    long long sides[2];
-    if (!koksma__json_has(node, "size")) {
-        return KOKSMA_OK;
-    }
-    KOKSMA__TRY(koksma__json_member(node, "size", &size));
-    KOKSMA__TRY(koksma__json_length(&size, SIZE_MAX, &length));
-    KOKSMA__JSON_FAIL_IF(length != 2, &size, "it takes 2 numbers, but has %zu items", length);
-    for (size_t i = 0; i < 2; i++) {
-        const koksma__json_node side = koksma__json_item(&size, i);
-        KOKSMA__TRY(koksma__json_whole(&side, 1, KOKSMA_MAX_IMAGE_SIDE, &sides[i]));
-    }
-    b->width = (int)sides[0];
-    b->height = (int)sides[1];
-    return KOKSMA_OK;
 }
 
 static koksma_status parse_image(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
@@ -379,20 +347,23 @@ static koksma_status parse_image(const koksma__json_node *node, const koksma__pl
     static const char *const keys[] = {"comment", "id",     "scenes", "patterns",   "spp",  "options",
                                        "size",    "trials", "quick",  "references", "skip", NULL};
     koksma__image_block *b = item;
+    long long size[2] = {0};
     koksma_status status = koksma__json_only(node, keys);
     status = status ? status : koksma__plan_id(node, false, &b->id);
-    status = status ? status : koksma__plan_texts(node, "scenes", NULL, &b->scenes);
+    status = status ? status : koksma__plan_texts(node, "scenes", NULL, true, false, &b->scenes);
     status = status ? status : check_scenes(node, trials, &b->scenes);
-    status = status
-                 ? status
-                 : koksma__plan_patterns(node, "patterns", koksma__image_pattern_text, trials->stored, &b->patterns);
+    status =
+        status ? status
+               : koksma__plan_texts(node, "patterns", koksma__image_pattern_text, true, trials->stored, &b->patterns);
     status = status ? status : koksma__plan_wholes(node, "spp", 1, MAX_SPP, &b->spp);
     status = status ? status : koksma__variants_parse(node, &b->variants);
     trials->totals->variants += b->variants.n;
     KOKSMA__JSON_FAIL_IF(!status && trials->totals->variants > MAX_VARIANTS, node,
                          "with it the blocks have more than %d combinations of options", MAX_VARIANTS);
     status = status ? status : koksma__plan_check_spp(node, trials, b);
-    status = status ? status : parse_size(node, b);
+    status = status ? status : get_wholes(node, "size", 2, 1, size);
+    b->width = (int)size[0];
+    b->height = (int)size[1];
     status = status ? status : parse_trials(node, trials, &b->trials);
     return status ? status
                   : koksma__plan_list(node, "references", true, sizeof *b->references, parse_reference, trials,

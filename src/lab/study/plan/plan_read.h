@@ -35,21 +35,16 @@ koksma_status koksma__error_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 /* Parses a metric of image errors. */
 koksma_status koksma__metric_text(const char *text, char out[KOKSMA_MAX_SPEC]);
 
-/* Reads the member `key` as a spec that `parser` checks; *out is its canonical form, which the caller frees. */
+/* Reads the member `key` as a spec that `parser` checks; *out is its canonical form, which the caller frees. The paths of
+   patterns start at the plan's folder. `stored` is that of koksma__plan_trials: otherwise a folder's name with which they
+   would be read as something else is an error. */
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                bool needed, char **out);
+                                bool needed, bool stored, char **out);
 
-/* Reads the member `key`, which must be there, as a list of at least one text, no two equal. With a parser, the texts are
-   specs, and their canonical forms are kept. */
+/* Reads the member `key` as a list of at least one text, no two equal. With a parser, the texts are specs, and their
+   canonical forms are kept. */
 koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                 koksma__texts *out);
-
-/* The same for patterns, whose paths start at the plan's folder. `stored` is that of koksma__plan_trials: otherwise a
-   folder's name with which they would be read as something else is an error. */
-koksma_status koksma__plan_pattern(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                   bool needed, bool stored, char **out);
-koksma_status koksma__plan_patterns(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                    bool stored, koksma__texts *out);
+                                 bool needed, bool stored, koksma__texts *out);
 
 /* Moves the texts of `more` to the end of `to`. */
 koksma_status koksma__plan_join(koksma__texts *to, koksma__texts *more);

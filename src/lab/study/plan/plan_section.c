@@ -195,13 +195,7 @@ koksma_status koksma__plan_id(const koksma__json_node *node, bool needed, char *
 }
 
 koksma_status koksma__plan_spec(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                bool needed, char **out)
-{
-    return koksma__plan_pattern(node, key, parser, needed, false, out);
-}
-
-koksma_status koksma__plan_pattern(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                   bool needed, bool stored, char **out)
+                                bool needed, bool stored, char **out)
 {
     koksma__json_node member;
     if (!needed && !koksma__json_has(node, key)) {
@@ -229,17 +223,14 @@ static koksma_status open_list(const koksma__json_node *node, const char *key, s
 }
 
 koksma_status koksma__plan_texts(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                 koksma__texts *out)
-{
-    return koksma__plan_patterns(node, key, parser, false, out);
-}
-
-koksma_status koksma__plan_patterns(const koksma__json_node *node, const char *key, koksma__spec_parser parser,
-                                    bool stored, koksma__texts *out)
+                                 bool needed, bool stored, koksma__texts *out)
 {
     koksma__json_node list;
     size_t length;
     void *items = NULL;
+    if (!needed && !koksma__json_has(node, key)) {
+        return KOKSMA_OK;
+    }
     koksma_status status = open_list(node, key, sizeof *out->at, &list, &length, &items);
     out->at = items;
     for (; !status && out->n < length; out->n++) {

@@ -65,29 +65,37 @@ static koksma_status parse_published(const koksma__json_node *node, koksma__tabl
 
 /* ---- Tables ---------------------------------------------------------------------------------------------- */
 
-static koksma_status parse_row(const koksma__json_node *node, koksma__spec_parser parser, bool stored,
-                               koksma__table_row *r)
+/* The patterns of a table of a scene are those of images, and those of a table of a measure are of sets of points. */
+static koksma_status parse_pattern(const koksma__json_node *node, const koksma__plan_trials *trials, bool needed,
+                                   char **out)
+{
+    return koksma__plan_spec(node, "pattern", trials->of_images ? koksma__image_pattern_text : koksma__pattern_text,
+                             needed, trials->stored, out);
+}
+
+static koksma_status parse_row(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "pattern", "label", "published", "rate", "of-random", NULL};
+    koksma__table_row *r = item;
     r->rate = r->of_random = NAN;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_pattern(node, "pattern", parser, true, stored, &r->pattern);
+    status = status ? status : parse_pattern(node, trials, true, &r->pattern);
     status = status ? status : koksma__plan_text(node, "label", true, &r->label);
     status = status ? status : koksma__json_get_number(node, "rate", false, -10, 0, &r->rate);
     status = status ? status : koksma__json_get_number(node, "of-random", false, 0, 100, &r->of_random);
     return status ? status : parse_published(node, r);
 }
 
-static koksma_status parse_note(const koksma__json_node *node, koksma__spec_parser parser, bool stored,
-                                koksma__note *n)
+static koksma_status parse_note(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
 {
     static const char *const keys[] = {"comment", "pattern",   "n",        "statistic",
                                        "reason",  "explained", "untested", NULL};
     static const char *const statistics[] = {"mean", "sd", "max"};
     const char *statistic;
+    koksma__note *n = item;
     n->explained = true;
     koksma_status status = koksma__json_only(node, keys);
-    status = status ? status : koksma__plan_pattern(node, "pattern", parser, false, stored, &n->pattern);
+    status = status ? status : parse_pattern(node, trials, false, &n->pattern);
     status = status ? status : koksma__json_get_whole(node, "n", false, 1, (int)KOKSMA_MAX_COORDINATES, &n->n);
     status = status ? status : koksma__plan_text(node, "reason", true, &n->reason);
     status = status ? status : koksma__json_get_flag(node, "explained", false, &n->explained);
@@ -97,28 +105,6 @@ static koksma_status parse_note(const koksma__json_node *node, koksma__spec_pars
         KOKSMA__JSON_FAIL_IF(++n->statistic == 3, node, "statistic '%s': it takes mean, sd or max", statistic);
     }
     return status;
-}
-
-/* The patterns of a table of a scene are those of images, and those of a table of a measure are of sets of points. */
-
-static koksma_status row_of_images(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    return parse_row(node, koksma__image_pattern_text, trials->stored, item);
-}
-
-static koksma_status row_of_points(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    return parse_row(node, koksma__pattern_text, trials->stored, item);
-}
-
-static koksma_status note_of_images(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    return parse_note(node, koksma__image_pattern_text, trials->stored, item);
-}
-
-static koksma_status note_of_points(const koksma__json_node *node, const koksma__plan_trials *trials, void *item)
-{
-    return parse_note(node, koksma__pattern_text, trials->stored, item);
 }
 
 /* Reads "n": one number, or a list of several. */
@@ -168,19 +154,20 @@ koksma_status koksma__plan_table(const koksma__json_node *node, const koksma__pl
     status = status ? status : koksma__plan_text(node, "title", true, &t->title);
     status = status ? status : koksma__plan_text(node, "symbol", false, &t->symbol);
     status = status ? status : koksma__plan_text(node, "scene", false, &t->scene);
-    status = status ? status : koksma__plan_spec(node, "measure", koksma__measure_text, false, &t->measure);
-    status = status ? status : koksma__plan_spec(node, "also", koksma__measure_text, false, &t->also);
+    status = status ? status : koksma__plan_spec(node, "measure", koksma__measure_text, false, false, &t->measure);
+    status = status ? status : koksma__plan_spec(node, "also", koksma__measure_text, false, false, &t->also);
     status = status ? status : koksma__json_get_flag(node, "fitted", false, &t->fitted);
     status = status ? status : parse_sizes(node, t);
     t->dim = 2;
     status = status ? status : koksma__json_get_whole(node, "dim", false, 1, KOKSMA_MAX_DIM, &t->dim);
+    koksma__plan_trials of_rows = *trials;
+    of_rows.of_images = t->scene;
     status = status ? status
-                    : koksma__plan_list(node, "rows", true, sizeof *t->rows, t->scene ? row_of_images : row_of_points,
-                                        trials, (void **)&t->rows, &t->n_rows);
-    status =
-        status ? status
-               : koksma__plan_list(node, "notes", false, sizeof *t->notes, t->scene ? note_of_images : note_of_points,
-                                   trials, (void **)&t->notes, &t->n_notes);
+                    : koksma__plan_list(node, "rows", true, sizeof *t->rows, parse_row, &of_rows, (void **)&t->rows,
+                                        &t->n_rows);
+    status = status ? status
+                    : koksma__plan_list(node, "notes", false, sizeof *t->notes, parse_note, &of_rows,
+                                        (void **)&t->notes, &t->n_notes);
     return status ? status : check_shape(node, t);
 }
 

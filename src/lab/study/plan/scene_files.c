@@ -1,60 +1,32 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * A scene file is known by the device and number of the file and of its folder, and by the end of its name: the folder
- * is where the paths in a scene start, and the end of the name says how it is read. So two links to a file are one scene
- * unless they lie in different folders. A file that cannot be opened is not tried again either, because trying may take
- * seconds and an audit asks for the scene of each row.
- */
+/* The scenes that plans name, each opened once. */
 #define _GNU_SOURCE /* tdestroy */
 #include "study/plan/plan.h"
 
-#include <inttypes.h>
 #include <search.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "core/capacity.h"
 #include "core/files.h"
 #include "core/status.h"
 #include "render/description_build.h"
 #include "scene/scene.h"
 
-enum { RATIO = 64, MOST_GIB = 4, KEY = KOKSMA__MAX_PATH + 96 };
+enum { RATIO = 64, MOST_GIB = 4 };
 
-/* A scene, or the reason why it cannot be opened. */
-typedef struct scene_file {
-    char *key; /* of the file, or a built-in scene's name */
-    koksma_scene *scene;
-    koksma_status failed;
-    char *reason;
-} scene_file;
-
-static int compare_files(const void *a, const void *b)
+static int compare_scenes(const void *a, const void *b)
 {
-    return strcmp(((const scene_file *)a)->key, ((const scene_file *)b)->key);
+    return strcmp(((const koksma__study_scene *)a)->name, ((const koksma__study_scene *)b)->name);
 }
 
-static void free_file(void *item)
+static void free_scene(void *item)
 {
-    scene_file *file = item;
-    koksma_scene_close(file->scene);
-    KOKSMA__FREE(file->key, file->reason, file);
-}
-
-static void key_of(const char *name, char key[KEY])
-{
-    char folder[KOKSMA__MAX_PATH];
-    struct stat file, above;
-    const char *end = strrchr(name, '.');
-    if (strpbrk(name, "./") && koksma__path_beside(name, ".", folder) && !stat(name, &file) &&
-        !stat(folder, &above)) {
-        snprintf(key, KEY, "%ju %ju %ju %ju %s", (uintmax_t)file.st_dev, (uintmax_t)file.st_ino,
-                 (uintmax_t)above.st_dev, (uintmax_t)above.st_ino, end && !strchr(end, '/') ? end : "");
-    } else {
-        snprintf(key, KEY, "%s", name);
-    }
+    koksma__study_scene *s = item;
+    koksma_scene_close(s->scene);
+    free((char *)s->name);
+    free(s);
 }
 
 /* Adds the memory of a scene, and the length of its files, to the sums. */
@@ -78,39 +50,43 @@ static koksma_status count(koksma__scene_files *files, const koksma_scene *scene
     return KOKSMA_OK;
 }
 
-koksma_status koksma__scene_files_open(koksma__scene_files *files, const char *name, koksma_scene **out)
+/* Opens the scene s->name. */
+static koksma_status open_scene(koksma__scene_files *files, koksma__study_scene *s)
 {
-    char key[KEY];
-    const scene_file wanted = {.key = key};
-    key_of(name, key);
-    scene_file *const *found = tfind(&wanted, &files->tree, compare_files);
-    *out = found ? (*found)->scene : NULL;
-    if (found) {
-        return *out ? KOKSMA_OK : koksma__fail((*found)->failed, "%s", (*found)->reason);
+    koksma_render_options options;
+    KOKSMA__REQUIRE_MEMORY(s->name, 1);
+    KOKSMA__TRY(koksma__scene_open(s->name, KOKSMA__BY_FILE, &s->scene));
+    KOKSMA__TRY(count(files, s->scene, s->name));
+    koksma_render_options_init(&options, s->scene);
+    s->width = options.width;
+    s->height = options.height;
+    snprintf(s->hash, sizeof s->hash, "%016llx", (unsigned long long)koksma_scene_hash(s->scene));
+    return tsearch(s, &files->tree, compare_scenes) ? KOKSMA_OK : koksma__fail_memory(sizeof *s);
+}
+
+const koksma__study_scene *koksma__scene_files_find(const koksma__scene_files *files, const char *name)
+{
+    const koksma__study_scene wanted = {.name = name}, *const *found = tfind(&wanted, &files->tree, compare_scenes);
+    return found ? *found : NULL;
+}
+
+koksma_status koksma__scene_files_open(koksma__scene_files *files, const char *name)
+{
+    if (koksma__scene_files_find(files, name)) {
+        return KOKSMA_OK;
     }
-    scene_file *file = calloc(1, sizeof *file);
-    KOKSMA__REQUIRE_MEMORY(file, sizeof *file);
-    file->failed = koksma__scene_open(name, KOKSMA__BY_FILE, &file->scene);
-    file->failed = file->failed ? file->failed : count(files, file->scene, name);
-    const koksma_status status = file->failed;
+    koksma__study_scene *s = calloc(1, sizeof *s);
+    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
+    s->name = strdup(name);
+    const koksma_status status = open_scene(files, s);
     if (status) {
-        koksma_scene_close(file->scene);
-        file->scene = NULL;
-        file->reason = strdup(koksma_error_text());
+        free_scene(s);
     }
-    file->key = strdup(key);
-    const bool has_all = file->key && (file->reason || !status) && status != KOKSMA_MEMORY;
-    if (!has_all || !tsearch(file, &files->tree, compare_files)) {
-        free_file(file);
-        return status ? status : koksma__fail_memory(sizeof *file);
-    }
-    files->n++;
-    *out = file->scene;
     return status;
 }
 
 void koksma__scene_files_fini(koksma__scene_files *files)
 {
-    tdestroy(files->tree, free_file);
+    tdestroy(files->tree, free_scene);
     *files = (koksma__scene_files){0};
 }

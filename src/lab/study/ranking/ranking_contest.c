@@ -698,7 +698,7 @@ static bool others_are_led(const koksma__contest *c)
     bool led = false, any = false;
     for (size_t i = 0; i < c->n; i++) {
         any |= c->table.entrants[i].aside;
-        led |= !c->table.entrants[i].aside && koksma__rank_leads(&c->table, i, true);
+        led |= !c->table.entrants[i].aside && koksma__rank_leads_present(&c->table, i);
     }
     return any && led;
 }

@@ -332,32 +332,26 @@ double koksma__rank_excess(const koksma__rank_table *table, size_t i, bool incoh
     return most < 0 ? (double)INFINITY : most;
 }
 
-bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present)
+/* Whether all pairs of i with patterns that count are decided and none of these leaves less error. Excluded patterns don't
+   count, nor those that are coherent if `incoherent`, nor those that are postponed if `present`. While a pattern has no
+   complete round, its coherence is unknown, and it counts. */
+static bool leads_of(const koksma__rank_table *table, size_t i, bool incoherent, bool present)
 {
     const koksma__rank_entrant *mine = &table->entrants[i];
-    bool leads = mine->n_rounds && !mine->out;
+    bool leads = mine->n_rounds && !mine->out && !(incoherent && mine->coherent);
     for (size_t j = 0; leads && j < table->n; j++) {
         const koksma__rank_entrant *other = &table->entrants[j];
         const koksma__rank_verdict verdict = table->pairs[i * table->n + j].verdict;
-        leads = j == i || other->out || (present && other->aside) || verdict == KOKSMA__RANK_LESS ||
+        leads = j == i || other->out || (present && other->aside) ||
+                (incoherent && other->n_rounds && other->coherent) || verdict == KOKSMA__RANK_LESS ||
                 verdict == KOKSMA__RANK_SAME;
     }
     return leads;
 }
 
-/* Whether pattern i is decided to be the best of those whose error is not coherent. While a pattern has no complete
-   round, its coherence is unknown, and no pattern is decided to be the best. */
-static bool leads_incoherent(const koksma__rank_table *table, size_t i)
+bool koksma__rank_leads_present(const koksma__rank_table *table, size_t i)
 {
-    const koksma__rank_entrant *mine = &table->entrants[i];
-    bool leads = mine->n_rounds && !mine->out && !mine->coherent;
-    for (size_t j = 0; leads && j < table->n; j++) {
-        const koksma__rank_entrant *other = &table->entrants[j];
-        const koksma__rank_verdict verdict = table->pairs[i * table->n + j].verdict;
-        leads = j == i || other->out || (other->n_rounds && other->coherent) || verdict == KOKSMA__RANK_LESS ||
-                verdict == KOKSMA__RANK_SAME;
-    }
-    return leads;
+    return leads_of(table, i, false, true);
 }
 
 /* The latest round after which a pair of pattern i that counts for the goal was decided. */
@@ -380,9 +374,7 @@ static size_t find_leader(const koksma__rank_table *table, koksma__rank_goal goa
 {
     size_t leader = KOKSMA__RANK_NOBODY;
     for (size_t i = 0; i < table->n; i++) {
-        const bool leads =
-            goal == KOKSMA__RANK_FIND_LEADER ? koksma__rank_leads(table, i, false) : leads_incoherent(table, i);
-        if (leads) {
+        if (leads_of(table, i, goal != KOKSMA__RANK_FIND_LEADER, false)) {
             const int round = last_round(table, i, goal),
                       first = leader < table->n ? last_round(table, leader, goal) : round + 1;
             if (round < first || (round == first && table->entrants[i].rounds[round].mean <

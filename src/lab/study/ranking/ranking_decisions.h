@@ -141,9 +141,8 @@ double koksma__rank_excess(const koksma__rank_table *table, size_t i, bool incoh
 bool koksma__rank_matters(const koksma__rank_table *table, size_t i, size_t j, koksma__rank_goal goal);
 bool koksma__rank_reached(const koksma__rank_table *table, koksma__rank_goal goal);
 
-/* Whether all pairs of i are decided and no other pattern leaves less error. Excluded patterns do not count; if
-   `present`, postponed patterns do not count either. */
-bool koksma__rank_leads(const koksma__rank_table *table, size_t i, bool present);
+/* Whether all pairs of i are decided and no other pattern leaves less error, excluded and postponed patterns apart. */
+bool koksma__rank_leads_present(const koksma__rank_table *table, size_t i);
 
 /* Whether pattern i, the best at the requested size, is confirmed by this table of another size. best: the best
    pattern of this table; NOBODY: undecided. */

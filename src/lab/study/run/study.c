@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Opens and closes studies: parses the plan, creates the study's folder DIR, opens its store, loads each scene once,
    and records the plan in the store. In an MPI run only rank 0 has a folder. */
-#define _GNU_SOURCE /* tdestroy */
 #include "study/run/study.h"
 
 #include <limits.h>
-#include <search.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,52 +90,9 @@ static koksma_status load_plan(const char *name, const char *label, const koksma
     return status;
 }
 
-static int compare_scenes(const void *a, const void *b)
-{
-    return strcmp(((const koksma__study_scene *)a)->name, ((const koksma__study_scene *)b)->name);
-}
-
 const koksma__study_scene *koksma__study_scene_of(const koksma_study *study, const char *name)
 {
-    const koksma__study_scene wanted = {.name = name}, *const *found = tfind(&wanted, &study->scenes, compare_scenes);
-    return found ? *found : NULL;
-}
-
-/* Opens a scene unless it is open already. `name` must remain valid as long as the study. */
-static koksma_status open_scene(koksma_study *study, const char *name)
-{
-    koksma_scene *scene;
-    koksma_render_options options;
-    if (koksma__study_scene_of(study, name)) {
-        return KOKSMA_OK;
-    }
-    KOKSMA__TRY(koksma__scene_files_open(&study->totals.scenes, name, &scene));
-    koksma__study_scene *s = calloc(1, sizeof *s);
-    KOKSMA__REQUIRE_MEMORY(s, sizeof *s);
-    koksma_render_options_init(&options, scene);
-    *s = (koksma__study_scene){.name = name, .scene = scene, .width = options.width, .height = options.height};
-    snprintf(s->hash, sizeof s->hash, "%016llx", (unsigned long long)koksma_scene_hash(scene));
-    if (!tsearch(s, &study->scenes, compare_scenes)) {
-        free(s);
-        return koksma__fail_memory(sizeof *s);
-    }
-    return KOKSMA_OK;
-}
-
-static koksma_status open_scenes(koksma_study *study)
-{
-    koksma_status status = KOKSMA_OK;
-    for (size_t b = 0; b < study->plan.n_images; b++) {
-        for (size_t i = 0; !status && i < study->plan.images[b].scenes.n; i++) {
-            status = open_scene(study, study->plan.images[b].scenes.at[i]);
-        }
-    }
-    for (size_t f = 0; !status && f < study->plan.n_figures; f++) {
-        if (study->plan.figures[f].scene) {
-            status = open_scene(study, study->plan.figures[f].scene);
-        }
-    }
-    return status;
+    return koksma__scene_files_find(&study->totals.scenes, name);
 }
 
 koksma_status koksma__study_open_to_write(koksma_study *study)
@@ -302,7 +257,6 @@ static koksma_status open_with_plans(koksma_study *study, const koksma_study_opt
     char **texts = calloc(options->n_plans, sizeof *texts);
     KOKSMA__REQUIRE_MEMORY(texts, options->n_plans * sizeof *texts);
     koksma_status status = load_plans(study, options, texts);
-    status = status ? status : open_scenes(study);
     if (!status && options->folder) {
         study->is_written = true;
         status = make_folder(study, options->folder, path);
@@ -325,11 +279,7 @@ static koksma_status open_folder(koksma_study *study, const char *folder)
     KOKSMA__REQUIRE_MEMORY(study->folder, strlen(folder));
     koksma_status status = koksma__store_open(path, KOKSMA__STORE_READ, NULL, &study->store);
     status = status ? status : recall_plan(study);
-    status = status ? status : koksma__store_failed(study->store, &study->failed);
-    if (!status && (status = open_scenes(study))) {
-        koksma__study_fail_here(study, status);
-    }
-    return status;
+    return status ? status : koksma__store_failed(study->store, &study->failed);
 }
 
 static koksma_status check_options(const koksma_study_options *options)
@@ -429,7 +379,6 @@ koksma_status koksma_study_close(koksma_study *study)
     for (size_t i = 0; i < study->n_references; i++) {
         koksma_image_fini(&study->references[i].image);
     }
-    tdestroy(study->scenes, free);
     koksma__scene_files_fini(&study->totals.scenes);
     free(study->references);
     koksma__texts_fini(&study->failed);

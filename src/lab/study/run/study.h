@@ -18,16 +18,6 @@ enum { KOKSMA__PATH = 1200 };
 /* Writes the path of the results in a study's folder. Errors: ARGUMENT (the folder's name is too long). */
 koksma_status koksma__results_path(const char *folder, char path[KOKSMA__PATH]);
 
-/* A scene that the plan uses; `name` is its spelling in the plan. */
-typedef struct koksma__study_scene {
-    const char *name;
-    koksma_scene *scene;
-    char hash[24];
-    int width, height;
-    koksma_rank_renderer render; /* a function that calls another renderer, or NULL for this library's */
-    void *render_context;
-} koksma__study_scene;
-
 /* The width and height of an image block's pictures: those of the block if it states them, otherwise the scene's. */
 void koksma__block_size(const koksma__image_block *block, const koksma__study_scene *scene, int *width, int *height);
 
@@ -85,8 +75,7 @@ struct koksma_study {
     koksma__store *store;
     bool is_written;            /* whether the store was opened for a run */
     bool quick;                 /* whether blocks have their `quick` numbers of trials */
-    koksma__plan_totals totals; /* of its plans */
-    void *scenes;               /* koksma__study_scene of each name: a tree of tsearch(3) */
+    koksma__plan_totals totals; /* of its plans, with their scenes */
     size_t n_references;
     koksma__reference_image *references;
     koksma__texts failed;     /* lines for readers on the jobs that failed alone (failed_jobs.c) */
