@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The checks of koksma_generate and koksma_evaluate, and calls for the memory of NumPy arrays. */
+/* The checks of koksma_evaluate, and calls for the memory of NumPy arrays. */
 #ifndef KOKSMA_API_API_H
 #define KOKSMA_API_API_H
 
@@ -8,11 +8,6 @@
 #include <stdint.h>
 
 #include "core/visibility.h"
-
-/* ---- Generate -------------------------------------------------------------------------------------------- */
-
-/* Checks a pattern's spec for points of `dim` dimensions: its parameters, modifiers and path. Errors: ARGUMENT, DIM. */
-KOKSMA__LAB koksma_status koksma__generate_check(const koksma_spec *spec, const koksma_pattern *p, int dim);
 
 /* ---- Evaluate -------------------------------------------------------------------------------------------- */
 

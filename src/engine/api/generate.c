@@ -23,7 +23,8 @@ static koksma_status check_spec(const koksma_spec *spec, const koksma_pattern *p
                               KOKSMA_MAX_SPEC - 1);
 }
 
-koksma_status koksma__generate_check(const koksma_spec *spec, const koksma_pattern *p, int dim)
+/* Checks a pattern's spec for points of `dim` dimensions. */
+static koksma_status check_for_dim(const koksma_spec *spec, const koksma_pattern *p, int dim)
 {
     koksma_status status = koksma__dim_check(p->name, dim, p->min_dim, p->max_dim);
     status = status ? status : check_spec(spec, p);
@@ -99,7 +100,7 @@ static koksma_status generate(const koksma_spec *spec, const koksma_pattern *p, 
     koksma_args args = koksma__spec_arguments(spec, run);
     args.n = n;
     args.first = first;
-    KOKSMA__TRY(koksma__generate_check(spec, p, out->dim));
+    KOKSMA__TRY(check_for_dim(spec, p, out->dim));
     KOKSMA__TRY(koksma__points_fit(out->n, out->dim));
     KOKSMA__TRY(p->runs_code ? check_permission(spec, p, run) : KOKSMA_OK);
     const char kept = koksma__call_begin();
@@ -196,7 +197,7 @@ koksma_status koksma_generate_whole(const koksma_spec *spec, uint64_t seed, cons
     if (!p->whole) {
         return koksma__fail(KOKSMA_N, "%s: the number of points is missing", p->name);
     }
-    koksma_status status = dim || !p->operand ? koksma__generate_check(spec, p, dim) : check_spec(spec, p);
+    koksma_status status = dim || !p->operand ? check_for_dim(spec, p, dim) : check_spec(spec, p);
     const koksma_args args = koksma__spec_arguments(spec, run);
     if (!status) {
         out->dim = dim;

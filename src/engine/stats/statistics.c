@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Means, standard deviations and intervals of values, and comparisons of pairs by their differences. Sums are
-   compensated (core/sum.h) and in order of the index, so that equal values give equal bits. If all differences are 0
-   in exact arithmetic, rounding leaves about 1e-16 of the values, and an interval of width 0 would make this
-   difference significant. Therefore differences up to 1e-12 of the values count as 0. */
+/* Means, standard deviations and intervals of values, and relative changes over pairs. Sums are compensated
+   (core/sum.h) and in order of the index, so that equal values give equal bits. If all differences are 0 in exact
+   arithmetic, rounding leaves about 1e-16 of the values, and an interval of width 0 would make this difference
+   significant. Therefore differences up to 1e-12 of the values count as 0. */
 #include "stats/stats.h"
 
 #include <math.h>
@@ -18,13 +18,7 @@ int koksma__compare(double a, double b)
     return fabs(a - b) <= ROUNDING * fmax(fabs(a), fabs(b)) ? 0 : (a > b) - (a < b);
 }
 
-/* Returns a[i] - b[i], or 0 if they compare equal; if b is NULL, it returns a[i]. */
-static double item(const double *a, const double *b, size_t i)
-{
-    return !b ? a[i] : koksma__compare(a[i], b[i]) || isnan(a[i] - b[i]) ? a[i] - b[i] : 0;
-}
-
-koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride)
+koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
 {
     koksma__summary s = {n, NAN, NAN, NAN, NAN, NAN};
     if (n == 0) {
@@ -32,16 +26,15 @@ koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_
     }
     koksma__sum sum = {0}, squares = {0};
     double size = 0;
-    s.max = item(a, b, 0);
+    s.max = values[0];
     for (size_t i = 0; i < n; i++) {
-        const double value = item(a, b, i * stride);
-        koksma__sum_add(&sum, value);
-        s.max = fmax(s.max, value);
-        size = fmax(size, fmax(fabs(a[i * stride]), b ? fabs(b[i * stride]) : 0));
+        koksma__sum_add(&sum, values[i * stride]);
+        s.max = fmax(s.max, values[i * stride]);
+        size = fmax(size, fabs(values[i * stride]));
     }
     s.mean = koksma__sum_value(&sum) / (double)n;
     for (size_t i = 0; i < n; i++) {
-        const double t = item(a, b, i * stride) - s.mean;
+        const double t = values[i * stride] - s.mean;
         koksma__sum_add(&squares, t * t);
     }
     if (n < 2) {
@@ -80,11 +73,6 @@ koksma__estimate koksma__relative_change(const double *a, const double *base, si
 koksma__summary koksma__exactly(double value)
 {
     return (koksma__summary){1, value, 0, value, value, value};
-}
-
-koksma__summary koksma__summarize(const double *values, size_t n, size_t stride)
-{
-    return koksma__paired(values, NULL, n, stride);
 }
 
 koksma__summary koksma__summarize_sizes(const double *values, size_t n, size_t stride)

@@ -109,10 +109,6 @@ koksma__summary koksma__summarize_sizes(const double *values, size_t n, size_t s
 /* Makes the summary of a value without variance, such as the result of a deterministic pattern. */
 koksma__summary koksma__exactly(double value);
 
-/* Summarises the differences a[i] - b[i] of n pairs, which count as 0 where koksma__compare finds a[i] and b[i]
-   equal; consecutive values are `stride` apart. */
-koksma__summary koksma__paired(const double *a, const double *b, size_t n, size_t stride);
-
 /* Takes the largest value of each complete block of `block` values, and computes the mean and the sample SD of these
    maxima. The SD is NaN for fewer than two blocks. */
 void koksma__largest_of(const double *values, size_t n, size_t stride, size_t block, double *mean, double *sd);
