@@ -217,9 +217,9 @@ def check_entries(work):
     expect(verdict == "false" and repr(entry["value"])[:12] in reason, f"a false claim: {verdict} {reason}")
     # copies: the entry itself, reordered and reflected (l2-centered stays), a shift on the torus (l2-periodic stays), points moved by rounding
     submit("mirror", [(1 - x, y) for x, y in points[::-1]], "l2-centered")
-    submit("moved", [(x + (.5 - x) * 1e-10, y) for x, y in points], "l2-centered")
-    got = [v for v, _ in check("good", "good", "mirror", "moved")]
-    expect(got == ["accepted"] + ["worse"] * 3, f"copies of an entry: {got}")
+    moved = min(submit(name, [(.1, y), *points[1:]], "l2-centered")["value"] for name, y in (("up", .5 + 1e-9), ("down", .5 - 1e-9)))
+    got = [v for v, _ in check("good", "good", "mirror", "up", "down")]
+    expect(got == ["accepted"] + ["worse"] * 4 and moved < entry["value"] - 1e-12, f"copies of an entry: {got}, {moved}")
     submit("plain", points, "l2-periodic")  # which a listed pattern beats
     verdict, reason = check("plain")[0]
     expect(verdict == "worse" and f"{best_listed('l2-periodic', 5):.17g}" in reason, f"worse than a pattern: {verdict} {reason}")
