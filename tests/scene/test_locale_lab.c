@@ -70,39 +70,20 @@ static void make_scenes(FILE *out)
     }
 }
 
-#define PLY                                                                                                          \
-    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"                \
-    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-
-static const char gltf[] =
-    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0, "
-    "\"translation\": [0.125, 0.25, 0.5], \"scale\": [1.5, 1.25, 1.125]}], \"materials\": "
-    "[{\"pbrMetallicRoughness\": "
-    "{\"baseColorFactor\": [0.75, 0.5, 0.25, 1], \"metallicFactor\": 0}}], \"meshes\": [{\"primitives\": "
-    "[{\"attributes\": "
-    "{\"POSITION\": 0}, \"material\": 0}]}], \"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"count\": "
-    "3, "
-    "\"type\": \"VEC3\", \"min\": [-0.5, -0.5, 0], \"max\": [0.5, 0.75, 0.25]}], \"bufferViews\": [{\"buffer\": 0, "
-    "\"byteLength\": 36}], \"buffers\": [{\"byteLength\": 36, \"uri\": \"triangle.bin\"}]}";
-
-/* Mesh files. */
+/* Files of each format with numbers below 1: seeds of fuzz/corpus/model, whose first line is the ending of their names. */
 static void make_models(FILE *out)
 {
-    static const char *const names[] = {"model.obj", "model.ply", "model.gltf"};
-    static const float corners[9] = {-0.5F, -0.5F, 0, 0.5F, -0.25F, 0.25F, 0.125F, 0.75F, 0};
-    char path[192];
-    path_of("triangle.bin", path);
-    test_write_bytes(path, corners, sizeof corners);
-    write_text("model.mtl", "newmtl a\nKd 0.75 0.5 0.25\n");
-    write_text("model.obj",
-               "mtllib model.mtl\nv -0.5 -0.5 0\nv 0.5 -2.5e-1 0.25\nv 0.125 0.75 0\nusemtl a\nf 1 2 3\n");
-    write_text("model.ply", PLY "-0.5 -0.5 0\n0.5 -0.25 0.25\n0.125 0.75 0\n3 0 1 2\n");
-    write_text("model.gltf", gltf);
+    static const char *const names[] = {"indented.obj",    "p_wedge_ascii.ply", "triangle.gltf",
+                                        "parameters.pbrt", "parameters.xml",    "spectra.xml"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        koksma_scene *scene;
-        path_of(names[i], path);
-        assert_ok(koksma_scene_open(path, &scene));
-        koksma_scene_close(scene);
+        char path[512], text[1 << 14];
+        snprintf(path, sizeof path, "%s/../fuzz/corpus/model/%s", KOKSMA_TESTS, names[i]);
+        FILE *seed = fopen(path, "r");
+        assert_non_null(seed);
+        assert_non_null(fgets(text, sizeof text, seed));
+        text[fread(text, 1, sizeof text - 1, seed)] = 0;
+        fclose(seed);
+        write_text(names[i], text);
         take_picture(out, names[i]);
     }
     write_text("model.obj", "v -0,5 -0,5 0\nv 0,5 -0,25 0,25\nv 0,125 0,75 0\nf 1 2 3\n");
