@@ -43,11 +43,7 @@ void koksma__answer_equal(koksma__report *r, koksma__document *d, const koksma__
 {
     for (size_t b = 0; b < topic->n_images; b++) {
         const koksma__image_block *block = topic->images[b];
-        bool has_target = false;
-        for (size_t k = 0; k < block->spp.n; k++) {
-            has_target |= block->spp.at[k] == EQUAL_TO;
-        }
-        if (block->spp.n < 2 || !has_target) {
+        if (block->spp.n < 2 || !koksma__wholes_have(&block->spp, EQUAL_TO)) {
             continue;
         }
         koksma__doc_table(d, "equal-%.32s-%zu", topic->id, b + 1);
