@@ -37,12 +37,6 @@ static void set_up(one_row *t, double value, double half_digit, int explained)
                                .notes = &t->note};
 }
 
-static koksma_study_verdict verdict(const one_row *t, double mean, double sd, size_t n)
-{
-    const koksma__cell cell = cell_of(mean, sd, n);
-    return koksma__table_judge(&t->table, &t->row, 0, &cell).kind;
-}
-
 /* Printed 0.282 of 100 sets; ours 0.29 of 400 sets with SD 0.05: the standard error of the difference is
    0.05 sqrt(1/100 + 1/400) = 0.0055902, rounding adds 0.0005, and z = -0.008 / 0.0060902 = -1.3136. */
 TEST_CASE(z_has_both_errors_and_the_rounding)
@@ -53,40 +47,45 @@ TEST_CASE(z_has_both_errors_and_the_rounding)
     assert_near(koksma__table_judge(&t.table, &t.row, 0, &cell).z, -1.3136, 1e-4);
 }
 
+enum { NONE = -1, NOT_EXPLAINED, IS_EXPLAINED, UNTESTED };
+
+/* A note does not hide agreement, unless it says that there is nothing to agree with; a scene without light has no error. */
 TEST_CASE(every_verdict_has_its_case)
 {
-    one_row t;
-    set_up(&t, 0.282, 0.0005, -1);
-    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
-    assert_int_equal(verdict(&t, 0.29, NAN, 1), KOKSMA_VERDICT_WAITING);
-    assert_int_equal(verdict(&t, NAN, NAN, 0), KOKSMA_VERDICT_WAITING);
-    set_up(&t, 0.282, 0.0005, 1);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_EXPLAINED);
-    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_AGREES); /* a note does not hide agreement */
-    t.note.untested = true; /* unless it says that there is nothing to agree with */
-    assert_int_equal(verdict(&t, 0.29, 0.05, 400), KOKSMA_VERDICT_UNTESTED);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNTESTED);
-    set_up(&t, 0.282, 0.0005, 0);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_UNEXPLAINED);
-    set_up(&t, NAN, 0, 1);
-    assert_int_equal(verdict(&t, 0.31, 0.05, 400), KOKSMA_VERDICT_NEW);
-    set_up(&t, 0.02, 0.0005, -1);
-    t.table.measure = NULL;
-    t.table.scene = scene;
-    assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_AGREES);
-    assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
-    set_up(&t, 0, 0.0005, -1);
-    t.table.measure = NULL;
-    t.table.scene = scene;
-    assert_int_equal(verdict(&t, 0, 0, 3), KOKSMA_VERDICT_AGREES); /* a scene without light has no error */
-    assert_int_equal(verdict(&t, 0.001, 0, 3), KOKSMA_VERDICT_UNEXPLAINED);
-    set_up(&t, 0.02, 0.0005, -1);
-    t.table.measure = NULL;
-    t.table.scene = scene;
-    t.table.fitted = true;
-    assert_int_equal(verdict(&t, 0.0249, 0.05, 3), KOKSMA_VERDICT_FITTED);
-    assert_int_equal(verdict(&t, 0.0251, 0.05, 3), KOKSMA_VERDICT_UNEXPLAINED);
+    static const struct {
+        double printed, half_digit;
+        int note;
+        bool in_scene, fitted;
+        double mean, sd;
+        size_t n;
+        koksma_study_verdict verdict;
+    } cases[] = {{0.282, 0.0005, NONE, false, false, 0.29, 0.05, 400, KOKSMA_VERDICT_AGREES},
+                 {0.282, 0.0005, NONE, false, false, 0.31, 0.05, 400, KOKSMA_VERDICT_UNEXPLAINED},
+                 {0.282, 0.0005, NONE, false, false, 0.29, NAN, 1, KOKSMA_VERDICT_WAITING},
+                 {0.282, 0.0005, NONE, false, false, NAN, NAN, 0, KOKSMA_VERDICT_WAITING},
+                 {0.282, 0.0005, IS_EXPLAINED, false, false, 0.31, 0.05, 400, KOKSMA_VERDICT_EXPLAINED},
+                 {0.282, 0.0005, IS_EXPLAINED, false, false, 0.29, 0.05, 400, KOKSMA_VERDICT_AGREES},
+                 {0.282, 0.0005, UNTESTED, false, false, 0.29, 0.05, 400, KOKSMA_VERDICT_UNTESTED},
+                 {0.282, 0.0005, UNTESTED, false, false, 0.31, 0.05, 400, KOKSMA_VERDICT_UNTESTED},
+                 {0.282, 0.0005, NOT_EXPLAINED, false, false, 0.31, 0.05, 400, KOKSMA_VERDICT_UNEXPLAINED},
+                 {NAN, 0, IS_EXPLAINED, false, false, 0.31, 0.05, 400, KOKSMA_VERDICT_NEW},
+                 {0.02, 0.0005, NONE, true, false, 0.0249, 0.05, 3, KOKSMA_VERDICT_AGREES},
+                 {0.02, 0.0005, NONE, true, false, 0.0251, 0.05, 3, KOKSMA_VERDICT_UNEXPLAINED},
+                 {0, 0.0005, NONE, true, false, 0, 0, 3, KOKSMA_VERDICT_AGREES},
+                 {0, 0.0005, NONE, true, false, 0.001, 0, 3, KOKSMA_VERDICT_UNEXPLAINED},
+                 {0.02, 0.0005, NONE, true, true, 0.0249, 0.05, 3, KOKSMA_VERDICT_FITTED},
+                 {0.02, 0.0005, NONE, true, true, 0.0251, 0.05, 3, KOKSMA_VERDICT_UNEXPLAINED}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        one_row t;
+        set_up(&t, cases[i].printed, cases[i].half_digit, cases[i].note);
+        t.note.explained = cases[i].note >= IS_EXPLAINED;
+        t.note.untested = cases[i].note == UNTESTED;
+        t.table.fitted = cases[i].fitted;
+        t.table.measure = cases[i].in_scene ? NULL : measure;
+        t.table.scene = cases[i].in_scene ? scene : NULL;
+        const koksma__cell cell = cell_of(cases[i].mean, cases[i].sd, cases[i].n);
+        assert_int_equal(koksma__table_judge(&t.table, &t.row, 0, &cell).kind, cases[i].verdict);
+    }
     for (int v = KOKSMA_VERDICT_NEW; v <= KOKSMA_VERDICT_UNTESTED; v++) {
         assert_non_null(koksma_study_verdict_name((koksma_study_verdict)v));
     }
