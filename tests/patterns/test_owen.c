@@ -10,50 +10,30 @@
 
 enum { MOST_DIM = 7 };
 
-static uint32_t base_of_halton(int dim, int k)
-{
-    (void)dim;
-    return koksma__prime(k);
-}
-
-static uint32_t base_of_hammersley(int dim, int k)
-{
-    (void)dim;
-    return k ? koksma__prime(k - 1) : 2;
-}
-
-static uint32_t base_of_faure(int dim, int k)
-{
-    uint32_t base = 2;
-    for (k = 1; base < (uint32_t)dim; k++) {
-        base = koksma__prime(k);
-    }
-    return base;
-}
-
-static uint32_t base_two(int dim, int k)
-{
-    (void)dim, (void)k;
-    return 2;
-}
-
-static uint32_t base_three(int dim, int k)
-{
-    (void)dim, (void)k;
-    return 3;
-}
+/* Bases: PRIMES, PRIMES after the equidistant coordinate of base 2, the least PRIME >= dim, or a number. */
+enum { PRIMES, EQUIDISTANT, PRIME, TWO, THREE };
 
 /* A pattern that takes scramble=owen, and is not here, fails the first test. */
 static const struct scrambled {
     const char *name;
-    uint32_t (*base)(int dim, int k);
+    int bases;
 } patterns[] = {
-    {"halton", base_of_halton},      {"sobol", base_two},
-    {"faure", base_of_faure},        {"hammersley", base_of_hammersley},
-    {"zaremba", base_of_hammersley}, {"larcher-pillichshammer", base_two},
-    {"ternary-quads", base_three},
+    {"halton", PRIMES},          {"sobol", TWO},           {"faure", PRIME},
+    {"hammersley", EQUIDISTANT}, {"zaremba", EQUIDISTANT}, {"larcher-pillichshammer", TWO},
+    {"ternary-quads", THREE},
 };
 enum { N_PATTERNS = sizeof patterns / sizeof *patterns };
+
+/* The base of coordinate k. */
+static uint32_t base_of(const struct scrambled *p, int dim, int k)
+{
+    const int number = p->bases == PRIMES ? k : p->bases == EQUIDISTANT && k ? k - 1 : p->bases == THREE;
+    uint32_t base = koksma__prime(number);
+    for (int i = 1; p->bases == PRIME && base < (uint32_t)dim; i++) {
+        base = koksma__prime(i);
+    }
+    return base;
+}
 
 static const struct scrambled *of_name(const char *name)
 {
@@ -144,7 +124,7 @@ static void assert_uniform(const uint32_t *counts, uint32_t cells, const char *w
 static void check_digits(const struct scrambled *p, int dim, int k)
 {
     enum { SEEDS = 2500, PLACES = 16, MOST_CELLS = 400 };
-    const uint32_t b = p->base(dim, k);
+    const uint32_t b = base_of(p, dim, k);
     const size_t n = (size_t)b * b;
     uint32_t trees[MOST_CELLS] = {0}, children[MOST_CELLS] = {0}, places[PLACES] = {0}, deep[PLACES] = {0};
     const uint32_t each = b == 2 ? 2 : b == 3 ? 6 : b * (b - 1);
@@ -291,7 +271,7 @@ TEST_CASE(variances_are_owens)
             koksma_points points = scrambled_points("faure", cases[c].n, dim, seed);
             evaluate(&points, points.xs, f[0]);
             koksma_points_fini(&points);
-            scramble_by_the_book(seed, &plain, base_of_faure(dim, 0), cases[c].depth, xs);
+            scramble_by_the_book(seed, &plain, base_of(of_name("faure"), dim, 0), cases[c].depth, xs);
             evaluate(&plain, xs, f[1]);
             for (int j = 0; j < 2 * MEANS; j++) {
                 const double e = f[j / MEANS][j % MEANS];
