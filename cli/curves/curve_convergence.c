@@ -20,14 +20,14 @@
 
 enum { MAX_SIZES = KOKSMA_MAX_SIZES, PER_SOURCE = 3 };
 
-/* Returns whether a source has a set of n points. A file is taken to have one, its first n points. */
+/* Returns whether a pattern has a set of n points. Where memory ran out it may; measuring it then says so. */
 static bool has_size(const cli_curves *c, const cli_source *source, size_t n)
 {
-    koksma_points points = {0};
-    const bool has = !source->is_pattern || (!koksma_points_init(&points, n, source->dim) &&
-                                             !koksma_generate(&source->spec, c->seed, &c->work.run, &points));
+    koksma_points points;
+    koksma_status status = koksma_points_init(&points, n, source->dim);
+    status = status ? status : koksma_generate(&source->spec, c->seed, &c->work.run, &points);
     koksma_points_fini(&points);
-    return has;
+    return !status || status == KOKSMA_MEMORY;
 }
 
 /* Chooses the sizes of a source: those of --sizes, or else the powers of four from 16 to n, and n, as far as the source
