@@ -247,10 +247,4 @@ static inline void koksma__mirror3(const float w[3], const float n[3], float out
     }
 }
 
-/* A direction about n with density cosine / pi. */
-static inline void koksma__cosine_direction(const float n[3], const float u[2], float w[3])
-{
-    koksma__v3_to(koksma__v3_cosine_direction(koksma__v3_of(n), u[0], u[1]), w);
-}
-
 #endif

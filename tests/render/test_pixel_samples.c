@@ -4,8 +4,7 @@
    the same bits. Seeds are fixed; bounds are 5 standard deviations of a normal variable or more. */
 #include "core/random.h"
 #include "core/spec.h"
-#include "render/samples/samples.h"
-#include "rendering.h"
+#include "drawing.h"
 #include "test.h"
 #include <koksma/render.h>
 #include <math.h>
@@ -13,8 +12,6 @@
 #include <string.h>
 
 enum { MOST = 256, TRIALS = test_repeats(20000, 2000) };
-
-static const float nowhere[2] = {0, 0};
 
 static void draw_words(uint64_t index, uint32_t lane, size_t count, uint32_t *out)
 {
@@ -131,32 +128,15 @@ static koksma_spec spec_of(const char *pattern)
     return spec;
 }
 
-static const koksma__use_list all_uses = {
-    .lens = true, .time = true, .lights = 2, .light_choice = true, .vertices = 3};
-
-typedef struct drawing {
-    koksma_render_options options;
-    koksma__sampler sampler;
-    koksma__sample_scratch scratch;
-} drawing;
-
-static void open_drawing(const koksma_spec *spec, size_t n, uint64_t seed, drawing *d)
+static void open_set(const koksma_spec *spec, size_t n, uint64_t seed, drawing *d)
 {
-    d->options = (koksma_render_options){.spp = (int)n, .width = 4, .height = 4, .seed = seed, .pattern = *spec};
-    d->options.integrator = koksma_integrator_find("path");
-    assert_ok(koksma__pixel_samples(&d->options, &all_uses, NULL, &d->sampler));
-    assert_ok(koksma__sample_scratch_init(&d->scratch, &d->sampler));
-}
-
-static void draw(drawing *d, uint64_t pixel, uint32_t use, float *pairs)
-{
-    assert_ok(d->sampler.draw(&d->sampler, pixel, use, nowhere, &d->scratch, pairs));
-}
-
-static void close_drawing(drawing *d)
-{
-    koksma__sample_scratch_fini(&d->scratch);
-    d->sampler.release(&d->sampler);
+    const koksma_render_options options = {.spp = (int)n,
+                                           .width = 4,
+                                           .height = 4,
+                                           .seed = seed,
+                                           .pattern = *spec,
+                                           .integrator = koksma_integrator_find("path")};
+    open_drawing(&options, d);
 }
 
 /* One point in each of the boxes of columns x rows of the first n. */
@@ -188,7 +168,7 @@ TEST_CASE(sets_keep_their_strata)
             const bool latin = claims & KOKSMA_CLAIM_LATIN,
                        grid = claims & (KOKSMA_CLAIM_GRID | KOKSMA_CLAIM_STRATIFIED);
             drawing d;
-            open_drawing(&spec, n, 5, &d);
+            open_set(&spec, n, 5, &d);
             for (uint64_t pixel = 0; pixel < 60; pixel++) {
                 float pairs[2 * MOST];
                 const uint32_t use = uses[pixel % 3];
@@ -241,7 +221,7 @@ TEST_CASE(sets_have_the_law_of_their_pattern)
             koksma_points points;
             drawing d;
             assert_ok(koksma_points_init(&points, n, 2));
-            open_drawing(&spec, n, 6, &d);
+            open_set(&spec, n, 6, &d);
             for (uint64_t trial = 0; trial < TRIALS / 4; trial++) {
                 for (int kind = 0; kind < 2; kind++) {
                     float pairs[2 * MOST];
@@ -322,8 +302,8 @@ TEST_CASE(uses_pixels_and_seeds_are_independent)
             for (size_t o = 0; o < sizeof others / sizeof *others; o++) {
                 double sum = 0, squares = 0;
                 drawing d, e;
-                open_drawing(&spec, n, 100, &d);
-                open_drawing(&spec, n, 100 + others[o].seed, &e);
+                open_set(&spec, n, 100, &d);
+                open_set(&spec, n, 100 + others[o].seed, &e);
                 for (uint64_t trial = 0; trial < TRIALS / 4; trial++) {
                     float a[2 * MOST], b[2 * MOST];
                     double product[4] = {0};

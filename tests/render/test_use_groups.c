@@ -3,14 +3,10 @@
    the same in the mean; texts. Long because all of it needs the same sets and scenes. */
 #include <koksma/keys.h>
 
+#include "drawing.h"
 #include "patterns/masks/tile_size.h"
-#include "render/samples/samples.h"
-#include "rendering.h"
 
 enum { N = 16, SIDE = 4, MOST = 1024 };
-
-static const koksma__use_list all_uses = {
-    .lens = true, .time = true, .lights = 2, .light_choice = true, .vertices = 3};
 
 static koksma_render_options options_for(const char *patterns, int spp)
 {
@@ -20,26 +16,6 @@ static koksma_render_options options_for(const char *patterns, int spp)
     options.integrator = koksma_integrator_find("distribution");
     options.filter = koksma_filter_find("box");
     return options;
-}
-
-/* Every use's numbers are drawn in the order of `uses`; two a sample. */
-static void draw(const koksma__sampler *sampler, koksma__sample_scratch *room, uint64_t pixel, uint32_t use,
-                 float *pairs)
-{
-    static const float nowhere[2] = {0, 0};
-    assert_ok(sampler->draw(sampler, pixel, use, nowhere, room, pairs));
-}
-
-static void open(const koksma_render_options *options, koksma__sampler *sampler, koksma__sample_scratch *room)
-{
-    assert_ok(koksma__pixel_samples(options, &all_uses, NULL, sampler));
-    assert_ok(koksma__sample_scratch_init(room, sampler));
-}
-
-static void close_all(koksma__sampler *sampler, koksma__sample_scratch *room)
-{
-    koksma__sample_scratch_fini(room);
-    sampler->release(sampler);
 }
 
 /* ---- Samples ------------------------------------------------------------------------------------------------ */
@@ -80,24 +56,21 @@ TEST_CASE(samples_are_the_points_of_one_set)
             snprintf(text[1], sizeof text[1], "time+pixel=%s", pattern->name);
             for (int order = 0; order < 2; order++) {
                 const koksma_render_options options = options_for(text[order], n);
-                koksma__sampler sampler;
-                koksma__sample_scratch room;
+                drawing d;
                 float place[128], time[128];
-                open(&options, &sampler, &room);
+                open_drawing(&options, &d);
                 for (uint64_t pixel = 0; pixel < test_repeats(4, 2); pixel++) {
                     assert_ok(koksma_generate(&spec, koksma__random_seed(options.seed, pixel, KOKSMA__USE_PIXEL),
                                               NULL, &points));
-                    draw(&sampler, &room, pixel, pixel % 2 ? KOKSMA__USE_TIME : KOKSMA__USE_PIXEL,
-                         pixel % 2 ? time : place);
-                    draw(&sampler, &room, pixel + 31, KOKSMA__USE_LENS, pixel % 2 ? place : time);
-                    draw(&sampler, &room, pixel, pixel % 2 ? KOKSMA__USE_PIXEL : KOKSMA__USE_TIME,
-                         pixel % 2 ? place : time);
+                    draw(&d, pixel, pixel % 2 ? KOKSMA__USE_TIME : KOKSMA__USE_PIXEL, pixel % 2 ? time : place);
+                    draw(&d, pixel + 31, KOKSMA__USE_LENS, pixel % 2 ? place : time);
+                    draw(&d, pixel, pixel % 2 ? KOKSMA__USE_PIXEL : KOKSMA__USE_TIME, pixel % 2 ? place : time);
                     for (int i = 0; i < n; i++) {
                         const double x = (double)place[2 * i], y = (double)place[2 * i + 1], t = (double)time[2 * i];
                         assert_point(text[order], points.xs + 3 * i, order ? t : x, order ? x : y, order ? y : t);
                     }
                 }
-                close_all(&sampler, &room);
+                close_drawing(&d);
             }
             koksma_points_fini(&points);
             break;
@@ -117,14 +90,13 @@ TEST_CASE(pixels_have_the_keys_of_their_places)
     for (uint64_t p = 0; p < (uint64_t)(WIDTH * HEIGHT); p++) {
         for (int k = 0; k < 2; k++) {
             koksma_render_options options = k ? native : group;
-            koksma__sampler sampler;
-            koksma__sample_scratch room;
+            drawing d;
             float pairs[2][2 * SPP];
             options.width = WIDTH;
             options.height = HEIGHT;
-            open(&options, &sampler, &room);
-            draw(&sampler, &room, p, KOKSMA__USE_PIXEL, pairs[0]);
-            draw(&sampler, &room, p, k ? KOKSMA__USE_LENS : KOKSMA__USE_LIGHT, pairs[1]);
+            open_drawing(&options, &d);
+            draw(&d, p, KOKSMA__USE_PIXEL, pairs[0]);
+            draw(&d, p, k ? KOKSMA__USE_LENS : KOKSMA__USE_LIGHT, pairs[1]);
             const koksma_keys keys = koksma_keys_of_4d(koksma__random_seed(options.seed, 0, KOKSMA__USE_PIXEL),
                                                        (uint32_t)p % WIDTH, (uint32_t)p / WIDTH, 0, SPP);
             for (uint32_t i = 0; i < SPP; i++) {
@@ -140,7 +112,7 @@ TEST_CASE(pixels_have_the_keys_of_their_places)
                 }
                 assert_true(found);
             }
-            close_all(&sampler, &room);
+            close_drawing(&d);
         }
     }
 }
@@ -150,24 +122,23 @@ TEST_CASE(pixels_share_the_net_of_the_z_sampler)
 {
     for (int bounce = 0; bounce < 2; bounce++) {
         const koksma_render_options options = options_for("z-sampler", N);
-        koksma__sampler sampler;
-        koksma__sample_scratch room;
+        drawing d;
         koksma_points all;
         koksma_spec measure;
         koksma_value t;
         assert_ok(koksma_points_init(&all, (size_t)SIDE * SIDE * N, 2));
         assert_ok(koksma_measure_spec("t-value", &measure));
-        open(&options, &sampler, &room);
+        open_drawing(&options, &d);
         for (uint64_t p = 0; p < (uint64_t)(SIDE * SIDE); p++) {
             float pairs[2 * N];
-            draw(&sampler, &room, p, bounce ? KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LOBE : KOKSMA__USE_LIGHT, pairs);
+            draw(&d, p, bounce ? KOKSMA__USES_A_BOUNCE + KOKSMA__USE_LOBE : KOKSMA__USE_LIGHT, pairs);
             for (size_t i = 0; i < (size_t)(2 * N); i++) {
                 all.xs[p * 2 * N + i] = (double)pairs[i];
             }
         }
         assert_ok(koksma_evaluate(&measure, &all, NULL, &t));
         assert_true(t.value == 0);
-        close_all(&sampler, &room);
+        close_drawing(&d);
         koksma_points_fini(&all);
     }
 }
@@ -217,14 +188,13 @@ TEST_CASE(stratification_in_all_dimensions_is_kept)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         for (int pairing = 0; pairing < 2; pairing++) {
             koksma_render_options options = options_for(cases[k].text, 27);
-            koksma__sampler sampler;
-            koksma__sample_scratch room;
+            drawing d;
             double xyz[27][3];
             float two[54], one[54];
             options.pairing = pairing ? KOKSMA_PAIRING_ALIGNED : KOKSMA_PAIRING_SHUFFLED;
-            open(&options, &sampler, &room);
-            draw(&sampler, &room, 3, cases[k].two, two);
-            draw(&sampler, &room, 3, cases[k].one, one);
+            open_drawing(&options, &d);
+            draw(&d, 3, cases[k].two, two);
+            draw(&d, 3, cases[k].one, one);
             for (int i = 0; i < 27; i++) {
                 xyz[i][0] = (double)two[2 * i];
                 xyz[i][1] = (double)two[2 * i + 1];
@@ -234,7 +204,7 @@ TEST_CASE(stratification_in_all_dimensions_is_kept)
                         cases[k].text);
             assert_that(cases[k].kept || pairing || boxes_with_one(xyz, 27) != 10,
                         "%s: separate sets have one point in every box", cases[k].text);
-            close_all(&sampler, &room);
+            close_drawing(&d);
         }
     }
 }
@@ -243,14 +213,13 @@ TEST_CASE(stratification_in_all_dimensions_is_kept)
 TEST_CASE(groups_are_shuffled_as_a_whole)
 {
     koksma_render_options options = options_for("pixel+time=hammersley;lens+light=hammersley", N);
-    koksma__sampler sampler;
-    koksma__sample_scratch room;
+    drawing d;
     float place[2 * N], lens[2][2 * N], light[2][2 * N];
-    open(&options, &sampler, &room);
-    draw(&sampler, &room, 0, KOKSMA__USE_PIXEL, place);
+    open_drawing(&options, &d);
+    draw(&d, 0, KOKSMA__USE_PIXEL, place);
     for (uint64_t pixel = 0; pixel < 2; pixel++) {
-        draw(&sampler, &room, pixel, KOKSMA__USE_LENS, lens[pixel]);
-        draw(&sampler, &room, pixel, KOKSMA__USE_LIGHT, light[pixel]);
+        draw(&d, pixel, KOKSMA__USE_LENS, lens[pixel]);
+        draw(&d, pixel, KOKSMA__USE_LIGHT, light[pixel]);
     }
     assert_true(memcmp(lens[0], lens[1], sizeof lens[0]) != 0);
     assert_true(memcmp(lens[0], place, sizeof place) != 0);
@@ -261,7 +230,7 @@ TEST_CASE(groups_are_shuffled_as_a_whole)
         }
         assert_int_equal(found, 1);
     }
-    close_all(&sampler, &room);
+    close_drawing(&d);
 }
 
 /* Over the image: the triples of all pixels are the points of one set of spp x pixels. */
@@ -270,7 +239,7 @@ TEST_CASE(over_the_image_too)
     static const char *const texts[] = {"pixel+time=hammersley", "pixel+time=scan-time", "pixel+lens=hammersley"};
     for (size_t k = 0; k < 3; k++) {
         koksma_render_options options = options_for(texts[k], N);
-        koksma__sampler sampler;
+        drawing d = {.options = options};
         koksma_points points;
         const int dim = k == 2 ? 4 : 3;
         const size_t n = (size_t)N * SIDE * SIDE;
@@ -279,14 +248,14 @@ TEST_CASE(over_the_image_too)
         static float place[2 * MOST], rest[2 * MOST];
         size_t samples = 0;
         options.scope = KOKSMA_SCOPE_IMAGE;
-        assert_ok(koksma__image_samples(&options, &all_uses, NULL, &sampler));
+        assert_ok(koksma__image_samples(&options, &all_uses, NULL, &d.sampler));
         assert_ok(koksma_points_init(&points, n, dim));
         assert_ok(
             koksma_generate(&group->pattern, koksma__random_seed(options.seed, 0, KOKSMA__USE_PIXEL), NULL, &points));
         for (uint64_t pixel = 0; pixel < (uint64_t)SIDE * SIDE; pixel++) {
-            draw(&sampler, NULL, pixel, KOKSMA__USE_PIXEL, place);
-            draw(&sampler, NULL, pixel, other, rest);
-            for (size_t i = 0; i < sampler.count(&sampler, pixel); i++, samples++) {
+            draw(&d, pixel, KOKSMA__USE_PIXEL, place);
+            draw(&d, pixel, other, rest);
+            for (size_t i = 0; i < d.sampler.count(&d.sampler, pixel); i++, samples++) {
                 size_t found = 0;
                 for (size_t j = 0; j < n; j++) {
                     const double *x = points.xs + j * (size_t)dim;
@@ -300,7 +269,7 @@ TEST_CASE(over_the_image_too)
         }
         assert_int_equal(samples, n);
         koksma_points_fini(&points);
-        sampler.release(&sampler);
+        d.sampler.release(&d.sampler);
     }
 }
 

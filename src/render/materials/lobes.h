@@ -9,7 +9,7 @@
 #include "render/materials/materials.h"
 #include "render/vector3.h"
 
-/* The density of koksma__cosine_direction for a direction with this cosine; multiplied by the albedo it is the value
+/* The density of koksma__v3_cosine_direction for a direction with this cosine; multiplied by the albedo it is the value
    of a Lambert surface times the cosine. */
 KOKSMA__INLINE float koksma__lambert_pdf(float cosine)
 {

@@ -99,7 +99,8 @@ void BATCH_NAME(surfaces)(const koksma__rays *restrict rays, int lanes, int n, s
 /* Adds the value and the density of lane i where `mine`. */
 INLINE void give(koksma__bsdf_values *restrict out, int i, int mine, koksma__v3 value, float pdf)
 {
-    koksma__put(out->value, i, mine, koksma__v3_add(AT(out->value, i), value));
+    koksma__put(out->value, i, 1,
+                koksma__v3_add(AT(out->value, i), koksma__either(mine, value, (koksma__v3){0, 0, 0})));
     out->pdf[i] += mine ? pdf : 0;
 }
 

@@ -535,9 +535,9 @@ static koksma_status trace_block(const koksma__trace *trace, koksma__paths *path
     KOKSMA__TRY(scatter(trace, v));
     for (int i = 0; i < n; i++) {
         float *sum = trace->scratch->sums + 3 * (size_t)paths->sample[i];
-        for (int k = 0; k < 3; k++) {
-            sum[k] += v->light[k][i];
-        }
+        sum[0] += v->light[0][i];
+        sum[1] += v->light[1][i];
+        sum[2] += v->light[2][i];
     }
     return KOKSMA_OK;
 }
@@ -552,9 +552,12 @@ static float clamped(float value, float clamp)
 
 static void hand_over(const koksma__frame *frame, const float *restrict sums, size_t n, float *restrict rgb)
 {
-    const size_t channels = (size_t)frame->channels, step = 3 / channels;
-    for (size_t i = 0; i < n * channels; i++) {
-        rgb[i] = clamped(sums[i * step], (float)frame->scene->clamp);
+    const float clamp = (float)frame->scene->clamp;
+    for (size_t i = 0; frame->channels == 3 && i < 3 * n; i++) {
+        rgb[i] = clamped(sums[i], clamp);
+    }
+    for (size_t i = 0; frame->channels == 1 && i < n; i++) {
+        rgb[i] = clamped(sums[3 * i], clamp);
     }
 }
 

@@ -80,11 +80,13 @@ static koksma_status add_samples(const koksma__trace *trace, koksma__vertices *v
         return KOKSMA_OK;
     }
     if (frame->flags->shadows) {
-        for (int i = 0; l->same >= 0 && i < v->whole; i++) {
-            aimed[i] = frame->lights.lights[l->same].shape;
+        const koksma__shading_light *lights = frame->lights.lights;
+        const int whole = v->whole, same = l->same < 0 ? -1 : lights[l->same].shape;
+        for (int i = 0; i < whole; i++) {
+            aimed[i] = same;
         }
-        for (int i = 0; l->same < 0 && i < v->whole; i++) {
-            aimed[i] = l->light[i] < 0 ? -1 : frame->lights.lights[l->light[i]].shape;
+        for (int i = 0; l->same < 0 && i < whole; i++) {
+            aimed[i] = l->light[i] < 0 ? -1 : lights[l->light[i]].shape;
         }
         shadows.aimed = aimed;
         frame->geometry.occlude(&frame->geometry, &v->hits, v->whole, &shadows);
@@ -100,22 +102,27 @@ static koksma_status add_samples(const koksma__trace *trace, koksma__vertices *v
 koksma_status koksma__wavefront_light(const koksma__trace *trace, koksma__vertices *v, koksma__values *values)
 {
     const koksma__frame *frame = trace->frame;
-    const bool all = frame->light_selection == KOKSMA_LIGHTS_ALL;
+    const int n = (int)frame->lights.n, whole = v->whole;
+    const int32_t *form = v->surfaces.form;
     koksma__light_lanes l = {.lights = frame->lights.lights, .same = -1, .centres = !frame->flags->areas};
     _Alignas(64) koksma__lanes u;
-    if (!v->surfaces.traits || !frame->lights.n || trace->bounce > frame->depth) {
+    if (!v->surfaces.traits || !n || trace->bounce > frame->depth) {
         return KOKSMA_OK;
     }
-    if (!all) {
+    if (frame->light_selection != KOKSMA_LIGHTS_ALL) {
         KOKSMA__TRY(koksma__wavefront_pairs(trace, KOKSMA__USE_LIGHT_CHOICE, v, u, NULL));
         choose(trace, v, u, &l);
-    }
-    for (int k = 0; k < (all ? (int)frame->lights.n : 1); k++) {
-        for (int i = 0; i < v->whole; i++) {
-            l.light[i] = v->surfaces.form[i] < 0 ? -1 : all ? k : l.light[i];
-            l.probability[i] = all ? 1 : l.probability[i];
+        for (int i = 0; i < whole; i++) {
+            l.light[i] = form[i] < 0 ? -1 : l.light[i];
         }
-        l.same = all ? k : -1;
+        return add_samples(trace, v, &l, values);
+    }
+    for (l.same = 0; l.same < n; l.same++) {
+        const int32_t light = l.same;
+        for (int i = 0; i < whole; i++) {
+            l.light[i] = form[i] < 0 ? -1 : light;
+            l.probability[i] = 1;
+        }
         KOKSMA__TRY(add_samples(trace, v, &l, values));
     }
     return KOKSMA_OK;
