@@ -49,7 +49,7 @@ TEST_CASE(z_has_both_errors_and_the_rounding)
 
 enum { NONE = -1, NOT_EXPLAINED, IS_EXPLAINED, UNTESTED };
 
-/* A note does not hide agreement, unless it says that there is nothing to agree with; a scene without light has no error. */
+/* A note does not hide agreement, unless it says that there is nothing to agree with; a dark scene has no error. */
 TEST_CASE(every_verdict_has_its_case)
 {
     static const struct {
