@@ -113,7 +113,7 @@ static void put_slope(measuring *j, const char *source, size_t measure, int dim)
     cli_row("value %g", line.slope);
     const double trials = j->fits[measure].joint.count;
     cli_row("standard_error %g trials %g sd %g min %g max %g", trials > 1 ? line.slope_error : (double)NAN, trials,
-            NAN, NAN, NAN);
+            (double)NAN, (double)NAN, (double)NAN);
     put_tail(j,
              (tail){n_exact_of(j, measure, j->fits[measure].n_whole), NAN, NAN,
                     known ? -koksma_rate(&parts.spec, m, dim) : (double)NAN,
