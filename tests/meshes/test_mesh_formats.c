@@ -492,22 +492,24 @@ TEST_CASE(meshes_of_a_file_are_limited_together)
     koksma__mesh_file_fini(&file);
 }
 
-/* A .serialized file of two triangles, each in a zlib stream (RFC 1950) of one stored block (RFC 1951), at z = 0 and 1. */
+/* A .serialized file of two triangles, each in a zlib stream (RFC 1950) of one stored block (RFC 1951), at z = 0 and 1,
+   behind vertices that none names. */
+enum { SPARE = 400, BODY = 69 + 12 * SPARE };
 static size_t put_serialized(unsigned char *file)
 {
     uint32_t at[2];
     size_t size = 0;
     for (uint32_t k = 0; k < 2; k++) {
         static const unsigned char start[] = {0x1C, 4, 4, 0, 0x78, 1, 1}, flags[] = {0, 0x10, 0, 0, 0};
-        unsigned char body[69];
+        unsigned char body[BODY] = {0};
         const float places[9] = {0, 0, (float)k, 1, 0, (float)k, 0, 1, (float)k};
-        const uint64_t counts[2] = {3, 1};
-        const uint32_t corners[3] = {0, 1, 2};
+        const uint64_t counts[2] = {SPARE + 3, 1};
+        const uint32_t corners[3] = {SPARE, SPARE + 1, SPARE + 2};
         const uint16_t lengths[2] = {sizeof body, (uint16_t) ~sizeof body};
         memcpy(body, flags, 5);
         memcpy(body + 5, counts, 16);
-        memcpy(body + 21, places, 36);
-        memcpy(body + 57, corners, 12);
+        memcpy(body + BODY - 48, places, 36);
+        memcpy(body + BODY - 12, corners, 12);
         uint32_t a = 1, b = 0; /* Adler-32, whose bytes come largest first */
         for (size_t i = 0; i < sizeof body; i++) {
             a = (a + body[i]) % 65521;
@@ -519,8 +521,8 @@ static size_t put_serialized(unsigned char *file)
         memcpy(file + size, start, sizeof start);
         memcpy(file + size + 7, lengths, 4);
         memcpy(file + size + 11, body, sizeof body);
-        memcpy(file + size + 80, sum, 4);
-        size += 84;
+        memcpy(file + size + 11 + BODY, sum, 4);
+        size += 15 + BODY;
     }
     const uint32_t end[5] = {at[0], 0, at[1], 0, 2};
     memcpy(file + size, end, sizeof end);
@@ -530,7 +532,7 @@ static size_t put_serialized(unsigned char *file)
 /* Each mesh of a file is its own triangle. */
 TEST_CASE(meshes_of_one_file_stay_apart)
 {
-    unsigned char bytes[256];
+    unsigned char bytes[3 * BODY];
     koksma__mesh_file file = {0};
     test_write_bytes("two.serialized", bytes, put_serialized(bytes));
     const koksma_status status = koksma__mesh_file_read("two.serialized", KOKSMA__BY_USER, &file);
@@ -543,8 +545,9 @@ TEST_CASE(meshes_of_one_file_stay_apart)
     for (size_t i = 0; i < 2; i++) {
         const koksma__mesh *mesh = &koksma__file_mesh_at(&file, i)->mesh;
         assert_int_equal(mesh->n_triangles, 1);
-        for (int v = 0; v < 3; v++) {
-            assert_true(mesh->vertices[3 * v + 2] == (float)i);
+        for (size_t v = 0; v < 3; v++) {
+            assert_int_equal(mesh->indices[v], SPARE + v);
+            assert_true(mesh->vertices[3 * mesh->indices[v] + 2] == (float)i);
         }
     }
     koksma__mesh_file_fini(&file);
