@@ -29,7 +29,7 @@ static void put_witness(const koksma_witness *w)
         [KOKSMA_WITNESS_BOX] = "box", [KOKSMA_WITNESS_HALF_PLANE] = "half-plane", [KOKSMA_WITNESS_DISK] = "disk"};
     char json[1024], text[256], a[CLI_NUMBER], b[CLI_NUMBER], c[CLI_NUMBER], d[CLI_NUMBER];
     if (w->kind == KOKSMA_WITNESS_NONE) {
-        cli_row("witness %s", (const char *)NULL);
+        cli_row_json("witness", "null", "-");
         return;
     }
     snprintf(json, sizeof json, "{\"kind\":\"%s\",\"closed\":%s,\"count\":%zu,\"volume\":%.17g", kinds[w->kind],

@@ -32,7 +32,8 @@ static int run(const cli_args *args)
     if (counts.spp) {
         cli_row("spp %zu\n", counts.spp);
     } else {
-        cli_row("spp %s\n", (const char *)NULL);
+        cli_row_json("spp", "null", "-");
+        cli_row_end();
     }
     koksma_scene_close(scene);
     const int code = cli_rows_close(odd || is_black ? CLI_NO : CLI_YES);

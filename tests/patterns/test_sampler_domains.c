@@ -505,16 +505,16 @@ static void compare(size_t f, const relation *r, uint32_t i)
 
 TEST_CASE(draws_are_independent)
 {
-    static const relation relations[] = {
+    static const relation related[] = {
         {"uses", {.use = 1}, false},     {"columns", {.x = 1}, true},   {"rows", {.y = 1}, true},
         {"frames", {.frame = 1}, false}, {"seeds", {.seed = 1}, false},
     };
     static const uint32_t indices[] = {0, 3, 100, SAMPLES - 1};
     for (size_t f = 0; f < FUNCTIONS; f++) {
-        for (size_t r = 0; r < sizeof relations / sizeof *relations; r++) {
+        for (size_t r = 0; r < sizeof related / sizeof *related; r++) {
             for (size_t i = 0; i < sizeof indices / sizeof *indices; i++) {
-                if (!(functions[f].image && relations[r].pixels)) {
-                    compare(f, &relations[r], indices[i]);
+                if (!(functions[f].image && related[r].pixels)) {
+                    compare(f, &related[r], indices[i]);
                 }
             }
         }
