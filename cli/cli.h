@@ -184,9 +184,6 @@ int cli_no_member(const cli_args *args, const char *noun, const char *word);
    the fourth next call. */
 const char *cli_one_line(const char *text);
 
-/* Returns a name or path as one line of valid UTF-8, cut to 4095 bytes. It is valid until the fourth next call. */
-const char *cli_one_line(const char *text);
-
 /* Prints "koksma NAME: text" on stderr, as one line of valid UTF-8; command: the NAME, or "" for a message of the program
    as a whole. cli_note prints nothing with --quiet. */
 void cli_say(const char *command, const char *format, ...) KOKSMA_PRINTF(2, 3);
@@ -233,6 +230,8 @@ void cli_work_part(cli_work *work, size_t i, size_t n);
 void cli_work_rest(cli_work *work, double begin);
 /* Begins work of unknown length, such as making the points of a part, up to the next call of cli_work_part. */
 void cli_work_unknown(cli_work *work, const char *what);
+/* Shows the progress line, cut to the terminal's width, because a wrapped line could not be cleared. */
+void cli_show_line(const char *text);
 /* Clears the progress line, as a message or a row does; cli_work_hide shows none from now on, because the output that
    follows would mix with it on the terminal. */
 void cli_work_end(void);
@@ -270,7 +269,7 @@ int cli_rows_close(int code);
    variable COLUMNS overrides it), or 0 if the descriptor is no terminal. */
 int cli_terminal_width(int stream);
 
-/* ---- The help, and the run of a command (options.c, texts.c, command_help.c) ----------------------------------- */
+/* ---- The help, and the run of a command (run.c, texts.c, command_help.c) ----------------------------------- */
 
 /* Print a line for each command, as `koksma --help` does, and the help of one command on stdout. */
 void cli_print_overview(FILE *stream);
@@ -280,15 +279,13 @@ extern const char cli_overview_examples[]; /* command lines, one per line: the f
 /* Parses argv (argv[0] is the command's name) by the command's option table and runs the command, or prints its help. */
 int cli_run(const cli_command *command, int argc, char **argv);
 
-/* ---- Names of table members in help texts (texts.c) --------------------------------------------------- */
+/* ---- Help texts: names of table members in them, and their lines of at most 80 columns (texts.c) ------ */
 
 /* Returns `command`, which is command i of the table, with the placeholders in its texts replaced, which texts.c lists. */
 const cli_command *cli_expand(const cli_command *command, size_t i);
 
 /* Writes the names of the tables of `koksma list`, as cli_join does. */
 const char *cli_list_names(const char *comma, char *text, size_t size);
-
-/* ---- Help texts in lines of at most 80 columns (texts.c) ----------------------------------------- */
 
 enum { CLI_PARAGRAPH = 2048 };
 
@@ -313,12 +310,6 @@ bool cli_is_stdout(const char *path);
 
 /* Returns whether two paths lead to the same file, which is there. */
 bool cli_is_same_file(const char *a, const char *b);
-
-/* Checks that a file to write has an ending that its option's argument lists, "FILE.txt|.csv", or no ending. */
-bool cli_ending_fits(const cli_args *args, const char *argument, const char *path);
-
-/* Refuses an --output that is a file which the command reads, but that of --from, which a search continues. */
-bool cli_keeps_inputs(const cli_args *args);
 
 /* Tries, before work that takes long, whether the file `path` can be written: its folder is there and allows new files.
    Makes nothing; NULL and streams are not tried. */

@@ -2,8 +2,6 @@
 /* `koksma identify`: says which known points a set is, or by which map it arises from them. */
 #include <koksma/identify.h>
 
-#include <string.h>
-
 #include "cli.h"
 #include "source.h"
 

@@ -79,22 +79,6 @@ static void put_row(measuring *j, const char *source, const koksma_points *point
     cli_row_end();
 }
 
-koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value)
-{
-    const koksma_spec *spec = &j->measures[measure];
-    j->work.what = spec->measure->name;
-    const size_t sets = (size_t)j->args->n_operands * (j->n_warps ? j->n_warps : 1) * j->trials;
-    const size_t all = sets * j->n_measures * (j->n_prefixes ? j->n_prefixes : 1);
-    cli_work_part(&j->work, j->n_evaluated < all ? j->n_evaluated : all - 1, all);
-    j->n_evaluated++;
-    koksma_run run = j->work.run;
-    run.time_limit_s = j->time_limit_s;
-    const koksma_status status = j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
-                                         : koksma_evaluate(spec, points, &run, value);
-    j->fits[measure].n_cut += !status && cli_is_cut_short(spec, value);
-    return status;
-}
-
 /* Returns whether the first k points are a set of the pattern for all k, so that a slope describes the pattern and
    theory applies to it. Sequences, and independent points without cells, have this property. The first k points of
    other patterns are only a part of a set, such as a strip of cells. */
@@ -143,48 +127,6 @@ static void choose_columns(measuring *j)
         j->bounds = j->bounds || j->measures[m].measure->answer == KOKSMA_ANSWER_BOUND;
         j->sampled = j->sampled || j->measures[m].measure->answer == KOKSMA_ANSWER_SAMPLED;
     }
-}
-
-/* Returns `status`; but with -m all and without -m it returns KOKSMA_OK for a measure that does not accept a set, so that
-   the measure is left out. */
-koksma_status measuring_forgive(measuring *j, koksma_status status)
-{
-    const bool unable = status == KOKSMA_DIM || status == KOKSMA_N || status == KOKSMA_UNSUPPORTED;
-    if (!unable || !(j->all || j->by_default)) {
-        return status;
-    }
-    if (j->by_default && !cli_flag(j->args, "quiet") && strcmp(j->note, koksma_error_text()) != 0) {
-        snprintf(j->note, sizeof j->note, "%s", koksma_error_text());
-        cli_work_end();
-        cli_say("measure", "left out: %s", j->note);
-    }
-    return KOKSMA_OK;
-}
-
-static bool stop_at_once(void *context, double fraction_done)
-{
-    (void)context;
-    (void)fraction_done;
-    return false;
-}
-
-int measuring_check_dim(measuring *j, int dim)
-{
-    const koksma_run run = {.threads = 1, .keep_going = stop_at_once};
-    const bool one_suffices = j->all || j->by_default;
-    koksma_points points;
-    koksma_status status = koksma_points_init(&points, 1, dim);
-    bool more = !status;
-    for (size_t m = 0; m < j->n_measures && more; m++) {
-        koksma_value value;
-        status = j->warp ? koksma_warp_evaluate(j->warp, &j->measures[m], &points, &run, &value)
-                         : koksma_evaluate(&j->measures[m], &points, &run, &value);
-        status = status == KOKSMA_DIM || status == KOKSMA_UNSUPPORTED ? status : KOKSMA_OK;
-        more = one_suffices ? status != KOKSMA_OK : status == KOKSMA_OK;
-    }
-    const int code = status ? cli_fail(j->args, status) : CLI_YES;
-    koksma_points_fini(&points);
-    return code;
 }
 
 /* Checks the measures for all patterns before the first of them is generated. Returns the exit code. */

@@ -80,13 +80,15 @@ static koksma_status blur_image(void *context, const koksma_image *image, const 
     return koksma_image_blur(image, *(const double *)context, out);
 }
 
-const char *cli_process_text(const koksma_rank_options *options, char text[CLI_PROCESS_TEXT])
+/* The text of --filter-with, or NULL. text: room for "blur:sd=" and a number. */
+enum { PROCESS_TEXT = CLI_NUMBER + 16 };
+static const char *process_text(const koksma_rank_options *options, char text[PROCESS_TEXT])
 {
     char number[CLI_NUMBER];
     if (options->process != blur_image) {
         return options->process_context;
     }
-    snprintf(text, CLI_PROCESS_TEXT, "blur:sd=%s", cli_number(*(const double *)options->process_context, number));
+    snprintf(text, PROCESS_TEXT, "blur:sd=%s", cli_number(*(const double *)options->process_context, number));
     return text;
 }
 
@@ -201,8 +203,8 @@ static void put_ranking(const koksma_rank_options *options, const koksma_ranking
         cli_row("adaptive %s", options->adaptive);
     }
     if (options->process) {
-        char text[CLI_PROCESS_TEXT];
-        cli_row("filter_with %s", cli_process_text(options, text));
+        char text[PROCESS_TEXT];
+        cli_row("filter_with %s", process_text(options, text));
     }
     cli_row("reference_error %g settled? %d complete? %d cut_short? %d", ranking->reference_error, ranking->settled,
             ranking->complete, ranking->cut_short);
@@ -351,7 +353,8 @@ static koksma_status rank_at(const cli_args *args, const koksma_rank_options *op
         put_row(&shown, table, i, &ranking, cli_flag(args, "json"));
     }
     if (!cli_flag(args, "quiet")) {
-        cli_rank_advise(&shown, table, &ranking);
+        char text[PROCESS_TEXT];
+        cli_rank_advise(&shown, table, &ranking, process_text(options, text));
     }
     if (look.waits && !ranking.n) {
         cli_rank_say_look(options, look.errors);

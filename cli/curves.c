@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * The table of curves (curves.def): finds curves by name, checks the options that each curve takes, and computes the
- * means over sets that curves consist of.
- */
+/* Curves: checks the options that each takes, and computes the means over sets that curves consist of. */
 #include "curves.h"
 
 #include <math.h>
@@ -11,35 +8,6 @@
 #include <string.h>
 
 #include "source.h"
-
-static const cli_curve *const curves[] = {
-#define CURVE(name) &cli_curve_##name,
-#include "curves.def"
-#undef CURVE
-};
-
-const cli_curve *cli_curve_at(size_t i)
-{
-    return i < sizeof curves / sizeof *curves ? curves[i] : NULL;
-}
-
-static const char *options_of(const cli_curve *curve, cli_curve_list list)
-{
-    return list == CLI_PRINTED ? curve->print.options : curve->plot.options;
-}
-
-const cli_curve *cli_curve_find(cli_curve_list list, const char *name)
-{
-    const cli_curve *curve;
-    for (size_t i = 0; (curve = cli_curve_at(i)); i++) {
-        if (options_of(curve, list) && !strcmp(name, curve->name)) {
-            return curve;
-        }
-    }
-    return !strcmp(name, "radial")     ? cli_curve_find(list, "rings") /* what others call them */
-           : !strcmp(name, "spectrum") ? cli_curve_find(list, "power")
-                                       : NULL;
-}
 
 /* Some of the curves. */
 typedef struct choice {
@@ -52,7 +20,7 @@ static const char *chosen_name(const void *table, size_t i)
     const choice *of = table;
     const cli_curve *curve;
     for (size_t k = 0; (curve = cli_curve_at(k)); k++) {
-        const char *options = options_of(curve, of->list);
+        const char *options = cli_curve_options(curve, of->list);
         if (options && (!of->option || cli_has_word(options, of->option)) && !i--) {
             return curve->name;
         }
@@ -72,7 +40,7 @@ static bool options_fit(const cli_args *args, const cli_curve *curve, cli_curve_
     for (const cli_option *o = args->command->options; o->name; o++) {
         char names[256];
         cli_curve_names(list, o->name, ", ", " or ", names, sizeof names);
-        if (cli_flag(args, o->name) && *names && !cli_has_word(options_of(curve, list), o->name)) {
+        if (cli_flag(args, o->name) && *names && !cli_has_word(cli_curve_options(curve, list), o->name)) {
             return !cli_error(args, "--%s goes with %s%s", o->name, before, names);
         }
     }

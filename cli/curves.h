@@ -81,6 +81,7 @@ typedef enum cli_curve_list { CLI_PRINTED, CLI_DRAWN } cli_curve_list;
    list has none. */
 const cli_curve *cli_curve_at(size_t i);
 const cli_curve *cli_curve_find(cli_curve_list list, const char *name);
+const char *cli_curve_options(const cli_curve *curve, cli_curve_list list); /* NULL: it is not in the list */
 
 /* Writes the names of the curves in a list to `text` and returns it: all curves if `option` is NULL, otherwise those
    that take this option. `comma` is put between the names, and `last` before the last one. */

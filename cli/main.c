@@ -6,31 +6,8 @@
 
 #include "cli.h"
 
-static const cli_command *const commands[] = {
-#define COMMAND(name) &cli_command_##name,
-#include "commands.def"
-#undef COMMAND
-    NULL,
-};
-
-const cli_command *cli_command_at(size_t i)
-{
-    return commands[i] ? cli_expand(commands[i], i) : NULL;
-}
-
-const cli_command *cli_command_find(const char *name)
-{
-    for (size_t i = 0; commands[i]; i++) {
-        if (!strcmp(commands[i]->name, name)) {
-            return cli_command_at(i);
-        }
-    }
-    return NULL;
-}
-
-/* Checks the environment variable KOKSMA_KERNELS. If it names an instruction set that the machine lacks, the library
-   would silently use another one and users would measure the speed of the wrong code; the program reports an error
-   instead. */
+/* Refuses KOKSMA_KERNELS with an instruction set that the machine lacks: the library would silently use another one, and
+   users would measure the speed of the wrong code. */
 static bool kernels_are_there(void)
 {
     const char *wish = getenv("KOKSMA_KERNELS");

@@ -78,38 +78,36 @@ const char *cli_join(koksma_name_at *name, const void *table, const char *comma,
 
 /* ---- The names of tables ---------------------------------------------------------------------------------- */
 
-#define NAME(noun, at)                                                                                               \
+#define NAME(noun, ith)                                                                                              \
     static const char *noun##_name(const void *table, size_t i)                                                      \
     {                                                                                                                \
         (void)table;                                                                                                 \
-        return at(i) ? at(i)->name : NULL;                                                                           \
+        return ith;                                                                                                  \
     }
-NAME(pattern, koksma_pattern_at)
-NAME(measure, koksma_measure_at)
-NAME(integrand, koksma_integrand_at)
-NAME(estimator, koksma_estimator_at)
-NAME(interval, koksma_interval_at)
-NAME(integrator, koksma_integrator_at)
-NAME(filter, koksma_filter_at)
-NAME(adaptive, koksma_adaptive_at)
-NAME(metric, koksma_metric_at)
-NAME(warp, koksma_warp_at)
-NAME(property, koksma_property_at)
-NAME(use, koksma_use_at)
-NAME(curve, cli_curve_at)
-NAME(command, cli_command_at)
+#define NAME_OF(noun, at) NAME(noun, at(i) ? at(i)->name : NULL)
+NAME_OF(pattern, koksma_pattern_at)
+NAME_OF(measure, koksma_measure_at)
+NAME_OF(integrand, koksma_integrand_at)
+NAME_OF(estimator, koksma_estimator_at)
+NAME_OF(interval, koksma_interval_at)
+NAME_OF(integrator, koksma_integrator_at)
+NAME_OF(filter, koksma_filter_at)
+NAME_OF(adaptive, koksma_adaptive_at)
+NAME_OF(metric, koksma_metric_at)
+NAME_OF(warp, koksma_warp_at)
+NAME_OF(property, koksma_property_at)
+NAME_OF(use, koksma_use_at)
+NAME_OF(curve, cli_curve_at)
+NAME(scene, koksma_scene_name_at(i))
+NAME(plan, koksma_plan_name_at(i))
 
-static const char *scene_name(const void *table, size_t i)
-{
-    (void)table;
-    return koksma_scene_name_at(i);
-}
-
-static const char *plan_name(const void *table, size_t i)
-{
-    (void)table;
-    return koksma_plan_name_at(i);
-}
+static const char *const commands[] = {
+#define COMMAND(name) #name,
+#include "commands.def"
+#undef COMMAND
+    NULL,
+};
+NAME(command, commands[i])
 
 const cli_noun cli_nouns[] = {
     {"SCENE", scene_name, true, "a scene", "", "koksma rank ", ""},
@@ -450,28 +448,6 @@ const char *cli_operand_hint(const cli_args *args, const char *operand, char tex
 /* ---- Messages --------------------------------------------------------------------------------------------- */
 
 static bool complained; /* an error was printed, so cli_no_memory() prints nothing */
-
-const char *cli_one_line(const char *text)
-{
-    static char lines[4][4096];
-    static size_t next;
-    char *line = lines[next++ % (sizeof lines / sizeof *lines)];
-    snprintf(line, sizeof *lines, "%s", text);
-    koksma_text_escape(line, sizeof *lines);
-    return line;
-}
-
-void cli_say(const char *command, const char *format, ...)
-{
-    va_list list;
-    char text[4096];
-    va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    koksma_text_escape(text, sizeof text);
-    cli_work_end();
-    fprintf(stderr, *command ? "koksma %s: %s\n" : "koksma%s: %s\n", command, text);
-}
 
 void cli_note(const cli_args *args, const char *format, ...)
 {

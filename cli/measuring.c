@@ -28,6 +28,64 @@ void measuring_close(measuring *j)
     free(j->firsts);
 }
 
+koksma_status measuring_evaluate(measuring *j, size_t measure, const koksma_points *points, koksma_value *value)
+{
+    const koksma_spec *spec = &j->measures[measure];
+    j->work.what = spec->measure->name;
+    const size_t sets = (size_t)j->args->n_operands * (j->n_warps ? j->n_warps : 1) * j->trials;
+    const size_t all = sets * j->n_measures * (j->n_prefixes ? j->n_prefixes : 1);
+    cli_work_part(&j->work, j->n_evaluated < all ? j->n_evaluated : all - 1, all);
+    j->n_evaluated++;
+    koksma_run run = j->work.run;
+    run.time_limit_s = j->time_limit_s;
+    const koksma_status status = j->warp ? koksma_warp_evaluate(j->warp, spec, points, &run, value)
+                                         : koksma_evaluate(spec, points, &run, value);
+    j->fits[measure].n_cut += !status && cli_is_cut_short(spec, value);
+    return status;
+}
+
+/* Returns `status`; but with -m all and without -m it returns KOKSMA_OK for a measure that does not accept a set, so that
+   the measure is left out. */
+koksma_status measuring_forgive(measuring *j, koksma_status status)
+{
+    const bool unable = status == KOKSMA_DIM || status == KOKSMA_N || status == KOKSMA_UNSUPPORTED;
+    if (!unable || !(j->all || j->by_default)) {
+        return status;
+    }
+    if (j->by_default && !cli_flag(j->args, "quiet") && strcmp(j->note, koksma_error_text()) != 0) {
+        snprintf(j->note, sizeof j->note, "%s", koksma_error_text());
+        cli_work_end();
+        cli_say("measure", "left out: %s", j->note);
+    }
+    return KOKSMA_OK;
+}
+
+static bool stop_at_once(void *context, double fraction_done)
+{
+    (void)context;
+    (void)fraction_done;
+    return false;
+}
+
+int measuring_check_dim(measuring *j, int dim)
+{
+    const koksma_run run = {.threads = 1, .keep_going = stop_at_once};
+    const bool one_suffices = j->all || j->by_default;
+    koksma_points points;
+    koksma_status status = koksma_points_init(&points, 1, dim);
+    bool more = !status;
+    for (size_t m = 0; m < j->n_measures && more; m++) {
+        koksma_value value;
+        status = j->warp ? koksma_warp_evaluate(j->warp, &j->measures[m], &points, &run, &value)
+                         : koksma_evaluate(&j->measures[m], &points, &run, &value);
+        status = status == KOKSMA_DIM || status == KOKSMA_UNSUPPORTED ? status : KOKSMA_OK;
+        more = one_suffices ? status != KOKSMA_OK : status == KOKSMA_OK;
+    }
+    const int code = status ? cli_fail(j->args, status) : CLI_YES;
+    koksma_points_fini(&points);
+    return code;
+}
+
 /* Adds the first columns of a row of trials. In a row of differences they also name the first source or warp,
    which is subtracted. */
 static void put_head(measuring *j, const char *source, size_t n, int dim, const char *measure, bool difference)
@@ -75,12 +133,6 @@ static void put_tally(measuring *j, const koksma_tally *t, double n_exact, doubl
             koksma_tally_sd(t), t->min, t->max);
     const double half = koksma_tally_interval(t), low = t->mean - half;
     put_tail(j, (tail){n_exact, low < least ? least : low, t->mean + half, NAN, NAN, NAN});
-}
-
-/* Returns whether all trials of a source have the same points. */
-static bool has_one_set(const cli_source *source)
-{
-    return !source->is_pattern || koksma_has_one_set(&source->spec);
 }
 
 /* Returns the number of exact values, or NaN for a sampled measure, whose estimates are neither exact nor bounds. */
@@ -253,7 +305,8 @@ static koksma_status tally_points(measuring *j, const koksma_points *points, con
             return status;
         }
     }
-    for (size_t m = 0; m < j->n_measures && (trial == 0 || !has_one_set(source)); m++) {
+    const bool varies = source->is_pattern && !koksma_has_one_set(&source->spec);
+    for (size_t m = 0; m < j->n_measures && (trial == 0 || varies); m++) {
         koksma_joint_add(&j->fits[m].joint, j->n_prefixes, v.values[m]);
         j->fits[m].n_whole += v.whole[m];
     }
@@ -316,8 +369,6 @@ int measuring_trials(measuring *j, const char *source)
     return code;
 }
 
-/* Reports values that are only bounds because the search for the exact value was cut short. */
-
 bool cli_is_cut_short(const koksma_spec *measure, const koksma_value *value)
 {
     return measure->measure->answer == KOKSMA_ANSWER_EXACT && !value->exact;
@@ -330,8 +381,6 @@ void cli_tell_cuts(const cli_args *args, const char *what, size_t n_cut)
                  n_cut > 1 ? "s are" : " is a", n_cut > 1 ? "s" : "");
     }
 }
-
-/* The option --warp of measure, generate and plot: finds a map by its name, and maps sets of points. */
 
 const koksma_warp *cli_find_warp(const cli_args *args, const char *name)
 {

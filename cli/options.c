@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Parses a command line by the command's table of options (getopt_long), reads options, and reports errors
-   of the command line. */
+/* Reads the values of options: choices, numbers, sizes and lists. */
 #include "cli.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,230 +11,6 @@
 
 #include <koksma/image.h>
 #include <koksma/render.h>
-#include <koksma/study.h>
-
-#include "source.h"
-
-/* The letter of --help, which no option table may use. */
-enum { LONG_BASE = 1000, HELP = LONG_BASE + CLI_MAX_OPTIONS, HELP_LETTER = 'h' };
-
-const cli_option *cli_option_of(const cli_option *options, const char *name)
-{
-    while (options->name && strcmp(options->name, name) != 0) {
-        options++;
-    }
-    return options->name ? options : NULL;
-}
-
-/* Reports an option that does not exist or takes no argument. word: --NAME or --NAME=VALUE. */
-static int unknown_option(const cli_args *args, const char *word)
-{
-    char name[64];
-    snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    if (!strcmp(name, "help") || cli_option_of(args->command->options, name)) {
-        return cli_error(args, "option --%s takes no argument", name);
-    }
-    char meant[128], known[CLI_KNOWN] = "";
-    const char *hint = cli_meant_option(args->command->options, name, meant);
-    if (!*hint && *cli_known_as(args, name, known)) {
-        return cli_error(args, "no option --%s%s", name, known);
-    }
-    return cli_error(args, "no option --%s; %s'koksma %s --help' names them", name, hint, args->command->name);
-}
-
-static int parse_failure(const cli_args *args, int code, char **argv)
-{
-    /* The faulty option is optopt if it is a short one; a long one is the word before optind. */
-    if (optopt > 0 && optopt < LONG_BASE) {
-        const cli_option *o = args->command->options;
-        while (o->name && (!o->letter || (o->letter ^ optopt) != ('a' ^ 'A'))) { /* the other case of the letter */
-            o++;
-        }
-        char known[128];
-        const char name[] = {(char)optopt, '\0'};
-        const char *meant = o->name ? known : cli_meant_option(args->command->options, name, known);
-        if (o->name) {
-            snprintf(known, sizeof known, "did you mean -%c? ", o->letter);
-        }
-        return code == ':' ? cli_error(args, "option -%c takes an argument", optopt)
-                           : cli_error(args, "no option -%c; %s'koksma %s --help' names them", optopt, meant,
-                                       args->command->name);
-    }
-    const char *word = argv[optind - 1];
-    return code == ':' ? cli_error(args, "option %s takes an argument", word) : unknown_option(args, word);
-}
-
-/* Sets the value of option i. A second value is appended on a new line. Returns false when memory runs out. */
-static bool add_value(cli_args *args, int i, const char *value)
-{
-    const char *before = args->values[i];
-    if (!before || !*value) {
-        args->values[i] = value;
-        return true;
-    }
-    const size_t size = strlen(before) + strlen(value) + 2;
-    char *joined = malloc(size);
-    if (!joined) {
-        return false;
-    }
-    snprintf(joined, size, "%s\n%s", before, value);
-    free(args->joined[i]);
-    args->values[i] = args->joined[i] = joined;
-    return true;
-}
-
-enum { PARSED = -1 };
-
-/* Parses the options. Returns PARSED, or the exit code when nothing is left to run. */
-static int parse(cli_args *args, int argc, char **argv)
-{
-    const cli_command *command = args->command;
-    struct option longs[CLI_MAX_OPTIONS + 2] = {{0}};
-    char slip[128], shorts[2 * CLI_MAX_OPTIONS + 4] = {':', HELP_LETTER};
-    int n = 0;
-    for (; command->options[n].name; n++) {
-        const cli_option *o = &command->options[n];
-        longs[n] = (struct option){o->name, o->argument ? required_argument : no_argument, NULL, LONG_BASE + n};
-        if (o->letter) {
-            strncat(shorts, &o->letter, 1);
-            strcat(shorts, o->argument ? ":" : "");
-        }
-    }
-    longs[n] = (struct option){"help", no_argument, NULL, HELP};
-    opterr = 0;
-    optind = 0; /* 0 resets glibc's getopt completely, even if the previous parse stopped in the middle of a word */
-    for (int code; (code = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
-        if (code == '?' || code == ':') {
-            return parse_failure(args, code, argv);
-        }
-        const char *last = argv[optind - 1], *word = optarg == last ? argv[optind - 2] : last;
-        /* getopt_long takes --allow for --allow-exec, which runs programs */
-        const char *name = code < LONG_BASE ? NULL : code == HELP ? "help" : longs[code - LONG_BASE].name;
-        if (name && strcspn(word + 2, "=") != strlen(name)) {
-            return unknown_option(args, word);
-        }
-        if (code == HELP || code == HELP_LETTER) {
-            cli_print_help(command);
-            return CLI_YES;
-        }
-        if (cli_slip(command->options, word, optarg, slip)) {
-            return cli_error(args, "%s", slip);
-        }
-        int i = code - LONG_BASE;
-        if (code < LONG_BASE) {
-            for (i = 0; command->options[i].letter != code; i++) {
-            }
-        }
-        if (args->values[i] && command->options[i].argument && !strstr(command->options[i].argument, "...")) {
-            return cli_error(args, "option --%s is given twice", command->options[i].name);
-        }
-        if (!add_value(args, i, optarg ? optarg : "")) {
-            return cli_no_memory();
-        }
-    }
-    args->n_operands = argc - optind;
-    args->operands = argv + optind;
-    return PARSED;
-}
-
-/* Takes --format where it says how rows are printed: in `study export` it is the format of a file. */
-static bool take_format(const cli_args *args)
-{
-    const cli_option *option = cli_option_of(args->command->options, "format");
-    int format = CLI_TEXT;
-    if (option && !strcmp(option->argument, "text|csv|latex") && !cli_choice(args, "format", &format)) {
-        return false;
-    }
-    cli_set_format(cli_given(args, "json") ? CLI_JSON : format);
-    return format == CLI_TEXT || !cli_flag(args, "json") ||
-           !cli_error(args, "--format %s excludes --json", cli_text(args, "format", NULL));
-}
-
-/* Reads the options that have the same meaning in all commands. Returns the exit code. */
-static int read_shared_options(cli_args *args)
-{
-    uint64_t digits = CLI_DIGITS;
-    const cli_option *options = args->command->options;
-    for (int i = 0; options[i].name; i++) {
-        const char *argument = options[i].argument, *value = args->values[i];
-        const bool names_path = !strcmp(options[i].name, "output") ||
-                                (argument && (!strcmp(argument, "DIR") || !strncmp(argument, "FILE", 4)));
-        if (names_path && value && !*value) {
-            return cli_error(args, "--%s: the name is empty; it takes the name of a %s", options[i].name,
-                             !strcmp(argument, "DIR")    ? "folder"
-                             : !strcmp(argument, "PATH") ? "file or folder"
-                                                         : "file");
-        }
-        if (value && argument && !strncmp(argument, "FILE.", 5) && !cli_ending_fits(args, argument, value)) {
-            return CLI_USAGE;
-        }
-    }
-    if (!cli_keeps_inputs(args) || !take_format(args)) {
-        return CLI_USAGE;
-    }
-    if (cli_option_of(options, "digits")) {
-        if (!cli_whole(args, "digits", CLI_DIGITS, 1, 17, &digits)) {
-            return CLI_USAGE;
-        }
-        cli_set_style((int)digits, cli_flag(args, "long"));
-    }
-    if (cli_option_of(options, "allow-exec")) {
-        double seconds;
-        const bool allowed = cli_flag(args, "allow-exec");
-        if (!cli_real(args, "exec-seconds", 60, 1e-3, 86400, &seconds)) {
-            return CLI_USAGE;
-        }
-        const bool is_integrand = !strcmp(args->command->name, "integrate") && cli_text(args, "with", NULL) != NULL;
-        if (!allowed && !is_integrand && cli_text(args, "exec-seconds", NULL)) {
-            return cli_error(args, "--exec-seconds needs --allow-exec");
-        }
-        koksma_allow_exec(allowed ? seconds : 0);
-    }
-    if (cli_option_of(options, "unknown")) {
-        int refuse = 0;
-        if (!cli_choice(args, "unknown", &refuse)) {
-            return CLI_USAGE;
-        }
-        koksma_scene_refuse_unknown(refuse);
-    }
-    return cli_option_of(options, "patterns") && cli_option_of(options, "n") ? cli_sources_expand(args) : CLI_YES;
-}
-
-int cli_run(const cli_command *command, int argc, char **argv)
-{
-    cli_args args = {.command = command};
-    int code = parse(&args, argc, argv);
-    if (code == PARSED) {
-        code = read_shared_options(&args);
-        code = code ? code : command->run(&args);
-    }
-    for (int i = 0; i < CLI_MAX_OPTIONS; i++) {
-        free(args.joined[i]);
-    }
-    cli_sources_free(&args);
-    cli_work_end();
-    return cli_end_output(code);
-}
-
-const char *cli_text(const cli_args *args, const char *name, const char *fallback)
-{
-    const cli_option *option = cli_option_of(args->command->options, name);
-    if (!option) {
-        abort(); /* a bug: the option table lacks this name */
-    }
-    const char *value = args->values[option - args->command->options];
-    return value ? value : fallback;
-}
-
-const char *cli_given(const cli_args *args, const char *name)
-{
-    return cli_option_of(args->command->options, name) ? cli_text(args, name, NULL) : NULL;
-}
-
-bool cli_flag(const cli_args *args, const char *name)
-{
-    return cli_text(args, name, NULL) != NULL;
-}
 
 const char *cli_alternatives(const char *argument, char *text, size_t size)
 {
@@ -426,11 +200,10 @@ static bool is_use(const char *name, size_t length)
     return koksma_use_at(i) != NULL;
 }
 
-/* Returns the end of the list item that starts at s. Commas separate the items, but they also separate the parameters
-   of one spec: "a:x=1,y=2,b" has the items "a:x=1,y=2" and "b". A comma separates parameters if a ':' is before it in
-   the item and a parameter's "key=" follows. Otherwise it ends the item. So it ends the item before a spec with
-   parameters of its own, "b:x=1", in which the ':' comes before the '='; before patterns joined by '+' or ';', if
-   that comes before any '='; and before "USE=PATTERN", because no parameter has the name of a use. */
+/* Returns the end of the list item that starts at s. "a:x=1,y=2,b" has the items "a:x=1,y=2" and "b": a comma separates
+   parameters of one spec if a ':' is before it in the item and a parameter's "key=" follows. So it ends the item before
+   a spec with parameters of its own, "b:x=1", in which the ':' comes before the '='; before patterns joined by '+' or
+   ';', if that comes before any '='; and before "USE=PATTERN", because no parameter has the name of a use. */
 static const char *item_end(const char *s)
 {
     bool has_parameters = false;

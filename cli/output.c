@@ -16,8 +16,6 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-#include "source.h"
-
 static int reason; /* errno of the first write that failed */
 
 #ifndef __GLIBC__
@@ -93,72 +91,6 @@ bool cli_is_same_file(const char *a, const char *b)
 {
     struct stat info, other;
     return !stat(a, &info) && !stat(b, &other) && info.st_dev == other.st_dev && info.st_ino == other.st_ino;
-}
-
-bool cli_ending_fits(const cli_args *args, const char *argument, const char *path)
-{
-    const char *base = strrchr(path, '/') ? strrchr(path, '/') + 1 : path, *dot = strrchr(base, '.'),
-               *comma = strchr(base, ','), *first = strchr(argument, '.');
-    char all[64];
-    if (!dot || dot == base || !dot[1] || !first) { /* ".", ".." and ".name" have no ending */
-        return true;
-    }
-    for (const char *at = first; *at; at += strcspn(at, "|"), at += *at == '|') {
-        const size_t length = strlen(base), ending = strcspn(at, "|");
-        if (comma && comma - base > (ptrdiff_t)ending && !strncmp(comma - ending, at, ending)) {
-            return !cli_error(args, "%s: it writes one file, not two", path);
-        }
-        if (length > ending && !strncmp(base + length - ending, at, ending)) {
-            return true;
-        }
-    }
-    return !cli_error(args, "%s: its name must end in %s", path, cli_alternatives(first, all, sizeof all));
-}
-
-/* Whether koksma wrote a file of points, as far as its text says: a search may continue in it. */
-static bool is_ours(const char *path)
-{
-    char head[8] = "";
-    FILE *f = fopen(path, "rb"); /* it is the output, a plain file */
-    const bool ours = f && fread(head, 1, sizeof head, f) == sizeof head && !memcmp(head, "# koksma", sizeof head);
-    if (f) {
-        fclose(f);
-    }
-    const char *end = strrchr(path, '.');
-    return ours || (end && (!strcmp(end, ".npy") || !strcmp(end, ".csv")));
-}
-
-/* Whether an item of a list is a file that `output` would replace; then it prints an error. */
-static bool is_replaced(const cli_args *args, const char *list, const char *output)
-{
-    char item[KOKSMA_MAX_SPEC];
-    for (size_t i = 0; cli_list_item(list, i, item, sizeof item); i++) {
-        if (cli_reads(item, output)) {
-            return cli_error(args, "--output %s: it would replace what is read, %s; choose another file", output,
-                             item);
-        }
-    }
-    return false;
-}
-
-bool cli_keeps_inputs(const cli_args *args)
-{
-    const cli_option *options = args->command->options;
-    const char *output = cli_given(args, "output");
-    struct stat info;
-    bool keeps = true;
-    if (!output || stat(output, &info) || !S_ISREG(info.st_mode)) {
-        return true;
-    }
-    for (int i = 0; i < args->n_operands && keeps; i++) {
-        keeps = !is_replaced(args, args->operands[i], output);
-    }
-    for (int i = 0; options[i].name && keeps; i++) {
-        const char *name = options[i].name, *value = args->values[i];
-        keeps = !value || cli_has_word("output error-map", name) || (!strcmp(name, "from") && is_ours(value)) ||
-                !is_replaced(args, value, output);
-    }
-    return keeps;
 }
 
 enum { MOST_LINKS = 40 }; /* as many as the system follows */

@@ -374,10 +374,11 @@ bool cli_rank_decided(const koksma_ranking *ranking)
     return ranking->settled || ranking->within <= KOKSMA_RANK_TIE;
 }
 
-void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking)
+void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking,
+                     const char *process)
 {
     const advice a = {options, rows, rows + ranking->use_row, ranking};
-    char metric[KOKSMA_MAX_SPEC], time[CLI_NUMBER], text[CLI_PROCESS_TEXT];
+    char metric[KOKSMA_MAX_SPEC], time[CLI_NUMBER];
     double most = 0;
     say("%s at %d samples a pixel, %d x %d pixels: ", base_of(options->scene), options->spp, ranking->width,
         ranking->height);
@@ -397,8 +398,8 @@ void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *
     } else {
         say("%s, %s filter, error by %s", options->integrator->name, options->filter->name, metric);
     }
-    if (options->process) {
-        say(" after %s", cli_one_line(cli_process_text(options, text)));
+    if (process) {
+        say(" after %s", cli_one_line(process));
     }
     say(") in %s", cli_duration(ranking->seconds, time));
     if (isfinite(ranking->reference_error)) {

@@ -1,11 +1,62 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Rows as tables for other programs: CSV, and LaTeX. */
+/* The columns of a table, and tables for other programs: CSV, and LaTeX. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "rows.h"
+#include "row_tables.h"
+
+int cli_width_of(const char *text, size_t length)
+{
+    int width = 0;
+    for (size_t i = 0; i < length; i++) {
+        width += ((unsigned char)text[i] & 0xc0) != 0x80;
+    }
+    return width;
+}
+
+int cli_measure_columns(cli_block *b)
+{
+    int total = -CLI_GAP;
+    for (size_t i = 0; i < b->columns; i++) {
+        b->widths[i] = cli_width_of(b->cells[i].key, strlen(b->cells[i].key));
+        for (size_t row = 0; row < b->rows; row++) {
+            const char *text = cli_cell_at(b, row, i)->text;
+            const int width = cli_width_of(text, strlen(text));
+            b->widths[i] = b->widths[i] > width ? b->widths[i] : width;
+        }
+        total += b->widths[i] + CLI_GAP;
+    }
+    return total;
+}
+
+static bool is_common(const cli_block *b, size_t column)
+{
+    for (size_t row = 1; row < b->rows; row++) {
+        if (strcmp(cli_cell_at(b, row, column)->text, b->cells[column].text) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void cli_fit_columns(cli_block *b, int width)
+{
+    enum { LEAST = 28 };
+    int least[CLI_MOST_COLUMNS], room = width + CLI_GAP;
+    for (size_t i = 0; i < b->columns; i++) {
+        const int key = cli_width_of(b->cells[i].key, strlen(b->cells[i].key)), natural = b->widths[i];
+        least[i] = b->cells[i].kind == CLI_FIGURE || natural < LEAST ? natural : key > LEAST ? key : LEAST;
+        b->states[i] = is_common(b, i) ? CLI_COMMON : least[i] + CLI_GAP > room ? CLI_LEFT_OUT : CLI_SHOWN;
+        room -= b->states[i] == CLI_SHOWN ? least[i] + CLI_GAP : 0;
+    }
+    for (size_t i = 0; i < b->columns; i++) {
+        const int more = b->widths[i] - least[i] < room ? b->widths[i] - least[i] : room;
+        b->widths[i] = least[i] + more;
+        room -= b->states[i] == CLI_SHOWN ? more : 0;
+    }
+}
 
 /* ---- Tables for other programs ------------------------------------------------------------------------- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Rows of results: JSON lines, printed when a row ends, or aligned text, printed after the last row, when the widths
    of the columns are known. */
-#include "rows.h"
+#include "row_tables.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -9,43 +9,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
-/*
- * Prints rows as aligned text. Consecutive rows with the same keys form a block, which has its own header and column
- * widths. A block that is wider than the terminal is made narrower in these steps. A block of one row is printed as
- * one line per key. In other blocks columns with the same text in all rows go into a line above the table. Of the
- * remaining columns, those that fit are kept from left to right; a column of text needs at least LEAST characters and
- * continues longer texts on further lines. A line below the table names the columns that are left out.
- */
-enum { LEAST = 28, GAP = 2, NARROWEST = 40, USUAL = 80 };
+/* Prints rows as aligned text. Consecutive rows with the same keys form a block, with its own header and column widths. A
+   block that is wider than the terminal is made narrower: one of one row is printed as one line per key; in others columns
+   with the same text in all rows go into a line above the table. Of the remaining columns those that fit are kept from
+   left to right; a column of text needs at least 28 characters and continues longer texts on further lines. A line below
+   the table names the columns that are left out. */
 
 static int digits = CLI_DIGITS;
-static bool is_long;
+static bool all_columns;
 static int format = CLI_TEXT;
-
-int cli_terminal_width(int stream)
-{
-    struct winsize size = {0};
-    if (!isatty(stream)) {
-        return 0;
-    }
-    const char *wish = getenv("COLUMNS");
-    int width = wish ? atoi(wish) : 0;
-    width = width > 0 ? width : ioctl(stream, TIOCGWINSZ, &size) || !size.ws_col ? USUAL : size.ws_col;
-    return width > NARROWEST ? width : NARROWEST;
-}
-
-/* Returns the width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
-static int width_of(const char *text, size_t length)
-{
-    int width = 0;
-    for (size_t i = 0; i < length; i++) {
-        width += ((unsigned char)text[i] & 0xc0) != 0x80;
-    }
-    return width;
-}
 
 /* Returns how many bytes of text go on a line of `width` columns: all of them, or those up to the last blank, comma
    or @ that fits, or as many characters as fit. */
@@ -80,12 +54,12 @@ static void print_row(piece *pieces, size_t n)
         for (size_t i = 0; i < n; i++) {
             piece *p = &pieces[i];
             const size_t length = line_of(p->text, p->width);
-            const int rest = p->width - width_of(p->text, length);
+            const int rest = p->width - cli_width_of(p->text, length);
             if (length > 0) {
                 printf("%*s%.*s", blanks + (p->right ? rest : 0), "", (int)length, p->text);
                 blanks = 0;
             }
-            blanks += GAP + (length > 0 && p->right ? 0 : rest);
+            blanks += CLI_GAP + (length > 0 && p->right ? 0 : rest);
             p->text += length + strspn(p->text + length, " ");
             more = more || *p->text;
         }
@@ -103,7 +77,7 @@ static void print_list(const cli_block *b, const char *begin, cli_column_state w
         if (b->states[i] != which) {
             continue;
         }
-        const int length = width_of(key, strlen(key)) + 1 + width_of(text, strlen(text));
+        const int length = cli_width_of(key, strlen(key)) + 1 + cli_width_of(text, strlen(text));
         if (column > 0 && column + 2 + length >= width) {
             puts(",");
             column = 0;
@@ -127,52 +101,11 @@ static void print_record(const cli_block *b, int width)
 {
     int keys = 0;
     for (size_t i = 0; i < b->columns; i++) {
-        const int length = width_of(b->cells[i].key, strlen(b->cells[i].key));
+        const int length = cli_width_of(b->cells[i].key, strlen(b->cells[i].key));
         keys = length > keys ? length : keys;
     }
     for (size_t i = 0; i < b->columns; i++) {
-        print_row((piece[]){{b->cells[i].key, keys, false}, {b->cells[i].text, width - keys - GAP, false}}, 2);
-    }
-}
-
-int cli_measure_columns(cli_block *b)
-{
-    int total = -GAP;
-    for (size_t i = 0; i < b->columns; i++) {
-        b->widths[i] = width_of(b->cells[i].key, strlen(b->cells[i].key));
-        for (size_t row = 0; row < b->rows; row++) {
-            const char *text = cli_cell_at(b, row, i)->text;
-            const int width = width_of(text, strlen(text));
-            b->widths[i] = b->widths[i] > width ? b->widths[i] : width;
-        }
-        total += b->widths[i] + GAP;
-    }
-    return total;
-}
-
-static bool is_common(const cli_block *b, size_t column)
-{
-    for (size_t row = 1; row < b->rows; row++) {
-        if (strcmp(cli_cell_at(b, row, column)->text, b->cells[column].text) != 0) {
-            return false;
-        }
-    }
-    return true;
-}
-
-void cli_fit_columns(cli_block *b, int width)
-{
-    int least[CLI_MOST_COLUMNS], room = width + GAP;
-    for (size_t i = 0; i < b->columns; i++) {
-        const int key = width_of(b->cells[i].key, strlen(b->cells[i].key)), natural = b->widths[i];
-        least[i] = b->cells[i].kind == CLI_FIGURE || natural < LEAST ? natural : key > LEAST ? key : LEAST;
-        b->states[i] = is_common(b, i) ? CLI_COMMON : least[i] + GAP > room ? CLI_LEFT_OUT : CLI_SHOWN;
-        room -= b->states[i] == CLI_SHOWN ? least[i] + GAP : 0;
-    }
-    for (size_t i = 0; i < b->columns; i++) {
-        const int more = b->widths[i] - least[i] < room ? b->widths[i] - least[i] : room;
-        b->widths[i] = least[i] + more;
-        room -= b->states[i] == CLI_SHOWN ? more : 0;
+        print_row((piece[]){{b->cells[i].key, keys, false}, {b->cells[i].text, width - keys - CLI_GAP, false}}, 2);
     }
 }
 
@@ -243,7 +176,7 @@ static void print_table(const cli_cell *cells, size_t n, int width)
         if (format == CLI_TEXT) {
             print_block(&b, width);
         } else {
-            cli_print_foreign(&b, format == CLI_LATEX, is_long, start == 0);
+            cli_print_foreign(&b, format == CLI_LATEX, all_columns, start == 0);
         }
     }
 }
@@ -256,12 +189,12 @@ static struct {
     bool failed;
     cli_cell *cells; /* a row ends at a cell with a NULL key */
     size_t n, capacity;
-} rows;
+} stored;
 
-void cli_set_style(int n_digits, bool all_columns)
+void cli_set_style(int n_digits, bool show_all)
 {
     digits = n_digits;
-    is_long = all_columns;
+    all_columns = show_all;
 }
 
 void cli_set_format(int row_format)
@@ -272,17 +205,17 @@ void cli_set_format(int row_format)
 /* Adds a cell, whose text becomes one line of valid UTF-8, unless it is one of JSON. */
 static void push(const char *key, const char *text, cli_cell_kind kind)
 {
-    if (rows.n == rows.capacity && !rows.failed) {
-        const size_t capacity = rows.capacity ? 2 * rows.capacity : 64;
-        cli_cell *cells = realloc(rows.cells, capacity * sizeof *cells);
-        rows.failed = !cells;
-        rows.cells = cells ? cells : rows.cells;
-        rows.capacity = cells ? capacity : rows.capacity;
+    if (stored.n == stored.capacity && !stored.failed) {
+        const size_t capacity = stored.capacity ? 2 * stored.capacity : 64;
+        cli_cell *cells = realloc(stored.cells, capacity * sizeof *cells);
+        stored.failed = !cells;
+        stored.cells = cells ? cells : stored.cells;
+        stored.capacity = cells ? capacity : stored.capacity;
     }
     const size_t size = text ? 4 * strlen(text) + 1 : 0;
     cli_cell cell = {key ? strdup(key) : NULL, text ? malloc(size) : NULL, kind};
-    if (rows.failed || (key && !cell.key) || (text && !cell.text)) {
-        rows.failed = true;
+    if (stored.failed || (key && !cell.key) || (text && !cell.text)) {
+        stored.failed = true;
         free(cell.key);
         free(cell.text);
         return;
@@ -293,7 +226,7 @@ static void push(const char *key, const char *text, cli_cell_kind kind)
     if (text && format != CLI_JSON) {
         koksma_text_escape(cell.text, size);
     }
-    rows.cells[rows.n++] = cell;
+    stored.cells[stored.n++] = cell;
 }
 
 /* The number of bytes of the character of UTF-8 at `text`; 0 if there is none. koksma_text_escape changes all other
@@ -418,27 +351,27 @@ void cli_row(const char *fields, ...)
 
 static void free_cells(void)
 {
-    for (size_t i = 0; i < rows.n; i++) {
-        free(rows.cells[i].key);
-        free(rows.cells[i].text);
+    for (size_t i = 0; i < stored.n; i++) {
+        free(stored.cells[i].key);
+        free(stored.cells[i].text);
     }
-    rows.n = 0;
+    stored.n = 0;
 }
 
 void cli_row_end(void)
 {
     if (format != CLI_JSON) {
         push(NULL, NULL, CLI_WORDS);
-    } else if (!rows.failed && rows.n) {
+    } else if (!stored.failed && stored.n) {
         cli_work_end();
-        for (size_t i = 0; i < rows.n; i++) {
+        for (size_t i = 0; i < stored.n; i++) {
             putchar(i ? ',' : '{');
-            json_text(rows.cells[i].key);
+            json_text(stored.cells[i].key);
             putchar(':');
-            if (rows.cells[i].kind == CLI_WORDS) {
-                json_text(rows.cells[i].text);
+            if (stored.cells[i].kind == CLI_WORDS) {
+                json_text(stored.cells[i].text);
             } else {
-                fputs(rows.cells[i].text, stdout);
+                fputs(stored.cells[i].text, stdout);
             }
         }
         puts("}");
@@ -449,13 +382,14 @@ void cli_row_end(void)
 
 int cli_rows_close(int code)
 {
-    if (!rows.failed && format != CLI_JSON) {
+    if (!stored.failed && format != CLI_JSON) {
         cli_work_end();
-        print_table(rows.cells, rows.n, is_long || format != CLI_TEXT ? 0 : cli_terminal_width(STDOUT_FILENO));
+        print_table(stored.cells, stored.n,
+                    all_columns || format != CLI_TEXT ? 0 : cli_terminal_width(STDOUT_FILENO));
     }
     free_cells();
-    free(rows.cells);
-    rows.cells = NULL;
-    rows.capacity = 0;
-    return rows.failed && code <= CLI_NO ? cli_no_memory() : code;
+    free(stored.cells);
+    stored.cells = NULL;
+    stored.capacity = 0;
+    return stored.failed && code <= CLI_NO ? cli_no_memory() : code;
 }

@@ -128,20 +128,19 @@ int cli_source_open(const cli_args *args, const char *text, cli_source *source)
 }
 
 /* Returns a hint for the end of an error about a missing file: what the operand probably is, or "". */
-static const char *hint(const cli_args *args, const char *operand, char text[CLI_KNOWN])
+static const char *probable(const cli_args *args, const char *operand, char text[CLI_KNOWN])
 {
-    enum { size = CLI_KNOWN };
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)strcspn(operand, ":"), operand);
     text[0] = 0;
-    if (strlen(operand) + 32 < size && cli_names_pattern(operand) && !strpbrk(operand, "\n\r\t\033")) {
-        snprintf(text, size, "; did you mean %s@N?", operand);
+    if (strlen(operand) + 32 < CLI_KNOWN && cli_names_pattern(operand) && !strpbrk(operand, "\n\r\t\033")) {
+        snprintf(text, CLI_KNOWN, "; did you mean %s@N?", operand);
     } else if (strchr(operand, ',')) {
-        snprintf(text, size, "; it takes one name, and is given again for another");
+        snprintf(text, CLI_KNOWN, "; it takes one name, and is given again for another");
     } else if (koksma_measure_find(name)) {
-        snprintf(text, size, "; measures follow -m, with commas between them");
+        snprintf(text, CLI_KNOWN, "; measures follow -m, with commas between them");
     } else if (strpbrk(operand, "*?{")) {
-        snprintf(text, size, "; no file matches it");
+        snprintf(text, CLI_KNOWN, "; no file matches it");
     } else if (access(operand, F_OK)) {
         cli_known_as(args, operand, text);
     }
@@ -205,7 +204,7 @@ int cli_source_points(const cli_args *args, const char *text, uint64_t seed, con
     }
     if (status == KOKSMA_MISSING && !source.is_pattern) {
         char meant[CLI_KNOWN];
-        cli_error(args, "%s%s", koksma_error_text(), hint(args, text, meant));
+        cli_error(args, "%s%s", koksma_error_text(), probable(args, text, meant));
         return koksma_status_exit_code(status);
     }
     if (status == KOKSMA_MALFORMED && cli_option_of(args->command->options, "scale") &&
@@ -241,7 +240,7 @@ bool cli_sources_check(const cli_args *args, int first, uint64_t trials, size_t 
         if (trials > 1 && !cli_source_is_pattern(text)) {
             char meant[CLI_KNOWN] = "";
             return !cli_error(args, "--trials: '%s' is one set; it takes patterns, SPEC@N%s", text,
-                              access(text, R_OK) ? hint(args, text, meant) : meant);
+                              access(text, R_OK) ? probable(args, text, meant) : meant);
         }
         cli_source source = {0};
         if (all && cli_source_is_pattern(text) && cli_source_open(args, text, &source)) {
@@ -399,18 +398,18 @@ static int add_operand(cli_args *args, const char *text)
 }
 
 /* The values of -n and -d, and a list of the operands that -p all leaves out. */
-typedef struct sizes {
+typedef struct counts {
     const char *list; /* the list of -n, or NULL */
     uint64_t dim;
     bool all, used;
     bool any_bare;     /* whether there is a pattern without a size */
     const char *other; /* the first operand that names other points, or NULL */
     char left_out[1024];
-} sizes;
+} counts;
 
 /* Adds an operand as it is, or once for each size of -n if it is a pattern without a size or a family of files with {n}.
    Returns the exit code. */
-static int add_sizes(cli_args *args, const char *text, sizes *of)
+static int add_sizes(cli_args *args, const char *text, counts *of)
 {
     char item[32], operand[KOKSMA_MAX_SPEC + 64];
     const char *spec = cli_spec_in(text);
@@ -487,7 +486,7 @@ int cli_sources_expand(cli_args *args)
 {
     const char *patterns = cli_text(args, "patterns", NULL);
     char spec[KOKSMA_MAX_SPEC];
-    sizes of = {.list = cli_text(args, "n", NULL)};
+    counts of = {.list = cli_text(args, "n", NULL)};
     int code = cli_whole(args, "dim", 2, 1, KOKSMA_MAX_DIM, &of.dim) ? CLI_YES : CLI_USAGE;
     for (int i = 0; i < args->n_operands && !code; i++) {
         code = add_sizes(args, args->operands[i], &of);

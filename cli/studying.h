@@ -23,19 +23,15 @@ const char *cli_between(size_t i, size_t n);
 
 /* Whether it is decided which pattern to use: the best, or one that exceeds it by at most KOKSMA_RANK_TIE. */
 bool cli_rank_decided(const koksma_ranking *ranking);
-/* Prints on stderr which pattern to use or what is undecided, and how many trials were made. */
-void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking);
+/* Prints on stderr which pattern to use or what is undecided, and how many trials were made. process: the text of
+   --filter-with, or NULL. */
+void cli_rank_advise(const koksma_rank_options *options, const koksma_rank_row *rows, const koksma_ranking *ranking,
+                     const char *process);
 /* Prints what a koksma_rank_look gets, on stderr, the least error first. */
 void cli_rank_say_look(const koksma_rank_options *options, const double *errors);
 
 /* Prints how many samples of each pattern leave the error of --target-error. spp: N of a pattern SPEC@N, or 0. Returns the
    exit code. */
 int cli_rank_to_error(const cli_args *args, const koksma_rank_options *options, uint64_t spp);
-
-/* ---- `koksma rank --filter-with` ------------------------------------------------------------------------------ */
-
-/* The text of --filter-with. text: room for "blur:sd=" and a number. */
-enum { CLI_PROCESS_TEXT = CLI_NUMBER + 16 };
-const char *cli_process_text(const koksma_rank_options *options, char text[CLI_PROCESS_TEXT]);
 
 #endif

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/*
- * Long work: threads, the progress line on stderr, and Ctrl-C, which stops the work between two blocks; finished work
- * is kept.
- */
+/* Long work: threads, the progress line on stderr, and Ctrl-C, which stops the work between two blocks; finished work is
+   kept. */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -35,7 +33,6 @@ static void on_alarm(int number)
     busy_s = now;
     alarm(asked ? 0 : 1);
 }
-
 #endif
 
 static void on_signal(int number)
@@ -78,15 +75,10 @@ const char *cli_duration(double seconds, char text[CLI_NUMBER])
     return text;
 }
 
-static bool shown; /* a progress line is shown */
-
-/* A progress that falls by more than this began anew: `run` reports several phases, each from 0. */
-#define ANEW 0.05
-
-/* Notes the progress of the part. Once it began anew, it says nothing about the part. */
+/* Notes the progress of the part. `run` reports several phases, each from 0: after a fall it says nothing of the part. */
 static void note(cli_work *work, double fraction)
 {
-    work->unknown = work->unknown || fraction < work->reached - ANEW;
+    work->unknown = work->unknown || fraction < work->reached - 0.05;
     work->reached = fmax(work->reached, fraction);
     if (!work->unknown) {
         work->fraction = fmax(work->fraction, fmin(work->begin + work->share * fraction, 1));
@@ -101,7 +93,7 @@ static double seconds_left(const cli_work *work, double now)
     return part_s - in_part + after * (work->part_s - work->started_s + part_s) / (before + 1);
 }
 
-/* Prints the progress line. The line is cut to the terminal's width, because a wrapped line could not be cleared. */
+/* Prints the progress line. */
 static void show(cli_work *work, double fraction)
 {
     const double now = cli_seconds(), elapsed = now - work->started_s;
@@ -122,10 +114,7 @@ static void show(cli_work *work, double fraction)
     } else if (work->reached > 0.01 && elapsed > 1) {
         CLI_APPEND(text, sizeof text, ", %s left", cli_duration(seconds_left(work, now), left));
     }
-    const int width = cli_terminal_width(STDERR_FILENO);
-    fprintf(stderr, "\r\033[K%.*s", width ? width - 1 : (int)sizeof text, text);
-    fflush(stderr);
-    shown = true;
+    cli_show_line(text);
 }
 
 static bool keep_going(void *context, double fraction)
@@ -185,13 +174,4 @@ void cli_work_hide(cli_work *work)
 {
     cli_work_end();
     work->hidden = true;
-}
-
-void cli_work_end(void)
-{
-    if (shown) {
-        fputs("\r\033[K", stderr);
-        fflush(stderr);
-    }
-    shown = false;
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Rows with the same keys, as a table: shared by the text that people read and the tables for other programs. */
-#ifndef CLI_ROWS_H
-#define CLI_ROWS_H
+#ifndef CLI_ROW_TABLES_H
+#define CLI_ROW_TABLES_H
 
 #include <string.h>
 
 #include "cli.h"
 
-enum { CLI_MOST_COLUMNS = 64 };
+enum { CLI_MOST_COLUMNS = 64, CLI_GAP = 2 }; /* CLI_GAP: blanks between columns */
 
 typedef enum cli_cell_kind { CLI_WORDS, CLI_FIGURE, CLI_LITERAL } cli_cell_kind; /* CLI_LITERAL: JSON as it stands */
 
@@ -29,6 +29,9 @@ static inline const cli_cell *cli_cell_at(const cli_block *b, size_t row, size_t
 {
     return &b->cells[row * (b->columns + 1) + column];
 }
+
+/* Returns the width of UTF-8 text in terminal columns: the number of bytes that begin a character. */
+int cli_width_of(const char *text, size_t length);
 
 /* Makes each column as wide as its widest text. Returns the total width of the columns. */
 int cli_measure_columns(cli_block *b);
