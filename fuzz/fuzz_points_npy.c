@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Fuzzes the reader of points in NPY files: any bytes give points or an error. */
-#include "core/points_io.h"
+#include "core/point_files.h"
 #include "points.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)

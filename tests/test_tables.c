@@ -12,7 +12,7 @@
 #include "integrands/integrands.h"
 #include "kernels/kernels.h"
 #include "measures/measures.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 #include "patterns/patterns.h"
 #include "render/lights/lights.h"
 #include "render/materials/materials.h"

@@ -61,8 +61,8 @@ MAY_USE = {
 # Headers that declare what several files of their directory define, and why; so do headers that have their directory's name,
 # if no .c file has it (measures/star/star.h).
 INTERNAL = {
-    "src/engine/identify/identify.h": "the points under test and the sequences that the tests compare them with",
-    "src/engine/optimise/optimise.h": "what the methods of a search share, a section a file",
+    "src/engine/identify/sample.h": "the points under test and the sequences that the tests compare them with",
+    "src/engine/optimise/search.h": "what the methods of a search share, a section a file",
     "src/render/scene/import.h": "what the readers of other renderers' scenes share, in one file a subject",
     "src/render/scene/mitsuba.h": "the parts of the reader of Mitsuba's scenes",
     "src/render/scene/pbrt.h": "the parts of the reader of pbrt's scenes",
@@ -73,7 +73,7 @@ INTERNAL = {
     "src/lab/study/store/store.h": "the interface of the store, whose files are parts of one object",
     "src/lab/study/store/store_internal.h": "the store's object, for its own files only",
     "src/engine/core/files.h": "files that are read and files that are written",
-    "src/engine/core/points_io.h": "files of points, one .c file a format",
+    "src/engine/core/point_files.h": "files of points, one .c file a format",
     "src/engine/core/points.h": "checks of points, and what several measures ask of them",
     "src/engine/core/spec.h": "specs and the modifiers at their end",
     "src/engine/core/lookup.h": "tables of names, and the name that was meant",

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "image/coherence.h"
+#include "image/fourier.h"
 #include "sets.h"
 #include "test.h"
 

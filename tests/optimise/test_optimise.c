@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "core/spec.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 #include "test.h"
 
 /* Calls f for each measure with a gradient, with each choice of its law, in its first dimensions. */

@@ -7,8 +7,8 @@
 
 #include "api/api.h"
 #include "core/parallel.h"
+#include "core/point_files.h"
 #include "core/points.h"
-#include "core/points_io.h"
 #include "core/spec.h"
 #include "core/status.h"
 #include "patterns/files/files.h"

@@ -10,7 +10,6 @@
 #include <koksma/koksma.h>
 
 #include <stdarg.h>
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -2,7 +2,6 @@
 /* Sets of points: memory, limits of n and dim, and the check that coordinates are in [0,1]. */
 #include "core/points.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 
 #include "core/capacity.h"

@@ -3,7 +3,7 @@
  * Files of points. When reading, the first byte distinguishes NumPy's format (points_npy.c) from text
  * (points_text.c); when writing, the ending of the file's name chooses the format.
  */
-#include "core/points_io.h"
+#include "core/point_files.h"
 
 #include <math.h>
 #include <string.h>

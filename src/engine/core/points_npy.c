@@ -4,7 +4,7 @@
    signed integer is that number, and so 0 or 1. A file is the magic bytes, the version, the length of a Python dictionary,
    the dictionary padded with spaces so that the data begin at a multiple of 64 bytes, and the data. Format:
    https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html */
-#include "core/points_io.h"
+#include "core/point_files.h"
 
 #include <math.h>
 #include <stdlib.h>

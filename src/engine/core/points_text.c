@@ -5,7 +5,7 @@
    after such a line are an error. If there
    is a line `# n N` or `# dim D`, it must match the points. Test files with known values have another form: a preamble
    of lines `key number`, ended by a line `points`. Its lines `n N` and `dim D` must also match. */
-#include "core/points_io.h"
+#include "core/point_files.h"
 
 #include <errno.h>
 #include <math.h>

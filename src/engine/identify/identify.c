@@ -6,7 +6,7 @@
  * tolerance if the numbers may be rounded. What names the points is confirmed for every coordinate of every point
  * before it is said.
  */
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 
 #include "core/elementary.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 /* Returns the decimal with the fewest digits in [lo, hi]. */
 static double roundest(double lo, double hi)

@@ -18,7 +18,7 @@
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 enum { SEEDS = 1 << 16, SLOW_SEEDS = 2, SLOW_COORDINATES = 2048, FIRSTS = 1 << 14, VARIANTS = 16, CANCEL = 256 };
 

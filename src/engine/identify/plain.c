@@ -17,7 +17,7 @@
 #include "core/capacity.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 enum { PROBES = 16, LEAST_POINTS = 2, NEAR = 16, ENOUGH = 512 };
 

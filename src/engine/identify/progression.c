@@ -17,7 +17,7 @@
 #include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 #include "patterns/nets/nets.h"
 
 enum { LEAST_POINTS = 5, FIRSTS = 1 << 16, SHOWN = 12 };

@@ -20,7 +20,7 @@
 
 #include "core/c_locale.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 #define EXACT 0x1p-49 /* tolerances below this one are those of arithmetic in double */
 

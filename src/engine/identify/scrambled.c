@@ -15,7 +15,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 enum { FIRSTS = 1 << 16, PAIRS = 24, NEAR = 12, SCANNED = 3, ATTEMPTS = 8, SHOWN = 5 };
 

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 #include "patterns/nets/nets.h"
 
 enum { SOBOL, NIEDERREITER, RADICAL, FAURE };

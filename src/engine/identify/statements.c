@@ -8,7 +8,7 @@
 #include "core/c_locale.h"
 #include "core/capacity.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 double koksma__turn(double a)
 {

@@ -11,7 +11,7 @@
 #include "core/parallel.h"
 #include "core/points.h"
 #include "core/status.h"
-#include "identify/identify.h"
+#include "identify/sample.h"
 
 enum { LEAST_POINTS = 32 };
 

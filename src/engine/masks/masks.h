@@ -5,7 +5,6 @@
 
 #include <koksma/mask.h>
 
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 

@@ -8,7 +8,6 @@
  * Known exactly: the points (0,0) and (1/2,1/2) have 1/sqrt 2; the centres of a grid of m^dim cells have 1/m.
  * Limits: for a single point the measure fails with KOKSMA_N. The value is exact to rounding.
  */
-#include <math.h>
 
 #include "measures/distances/distances.h"
 #include "measures/measures.h"

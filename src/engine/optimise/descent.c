@@ -8,7 +8,7 @@
  * s} (fractional parts) with random vectors a and s, or from random points. On the torus, where lattices are among the
  * best sets, the best of many such vectors a is taken.
  */
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 #include <math.h>
 #include <stdlib.h>

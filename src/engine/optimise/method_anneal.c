@@ -21,7 +21,7 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 /* LEAST_N: for fewer points the method `descent` is used, which finds the best sets at once. In each of ROUNDS rounds
    there are SWAPS n proposals; searches from the best set leave out the first WARM rounds. The last COLD rounds

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 /* What a call costs beside its terms: with few points, most of its time. */
 static const double CALL = 1000;

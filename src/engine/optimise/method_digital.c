@@ -20,7 +20,7 @@
 #include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 enum { MOVES = 200, LOWER = 10, DIGITS = KOKSMA__SEQUENCE_DIGITS };
 

@@ -21,7 +21,7 @@
 #include "core/elementary.h"
 #include "core/parallel.h"
 #include "core/status.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 /* The number of coordinates that one search reads, with stored kernels and without: some hundredths and some tenths of
    a second. The temperature is that of ROUND proposals. */

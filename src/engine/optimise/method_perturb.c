@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "core/elementary.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 enum { MOVES = 200 };
 

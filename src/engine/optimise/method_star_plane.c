@@ -40,7 +40,7 @@
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "measures/shared/shared.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 enum { MAX_N = 4096, PATIENCE = 2000, CYCLES = 256, GUIDES = 16, MAX_EDGES = 16, NONE = UINT32_MAX };
 

@@ -29,7 +29,7 @@
 #include "kernels/kernels.h"
 #include "measures/measures.h"
 #include "measures/shared/shared.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 enum { MAX_N = 1024, ITERATIONS = 20, DRAWS = 16, STALE = 60, CAPACITY = 1 << 18, LANES = 32 };
 

@@ -13,7 +13,7 @@
 
 #include "core/elementary.h"
 #include "core/parallel.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 enum { MOVES = 200 };
 

@@ -27,7 +27,7 @@
 #include "core/points.h"
 #include "core/status.h"
 #include "measures/measures.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 static const koksma_method *const methods[] = {
 #define METHOD(name) &koksma__method_##name,

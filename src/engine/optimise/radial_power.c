@@ -18,7 +18,7 @@
  * f^2 = n (Heck, Schlomer & Deussen 2013), for 1 - exp(-f^2 / (2 s^2)) it means 2 pi s^2 = n, the spectrum of the
  * Ginibre process.
  */
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,14 +5,14 @@
  * points 2^c and r (Niederreiter 1992). The digits of coordinate k of point 2^c are then column c of the generator
  * matrix of coordinate k. So searches exchange only points; the matrices can be recovered from the points.
  */
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 #include "core/files.h"
+#include "core/point_files.h"
 #include "core/points.h"
-#include "core/points_io.h"
 #include "core/status.h"
 
 static uint64_t digits_of(double x)

@@ -9,7 +9,7 @@
  * of length 1/n; such a set is also tried with its coordinates moved to the middles of these intervals. Net: in the
  * plane the patterns that claim (0,m,2)-nets, in other dimensions Sobol' points. Sequence: what the points show.
  */
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 #include <math.h>
 #include <stdio.h>

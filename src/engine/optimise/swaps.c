@@ -10,7 +10,7 @@
  * The kernels of all pairs are stored, one matrix for each coordinate: a change is a sum along rows, in fixed order,
  * and a swap of coordinate k exchanges two rows and two columns of matrix k.
  */
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
  * prefixes of 2, 4, ..., n points and over the projections, and with keep=every-prefix over those of FROM, FROM + 1, ...,
  * n: a gain of 1 % counts as much at 2 points as at n, although measures decrease with n at different rates.
  */
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -19,7 +19,7 @@
 
 #include "core/parallel.h"
 #include "core/platform/processes.h"
-#include "core/points_io.h"
+#include "core/point_files.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
 

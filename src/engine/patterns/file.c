@@ -11,7 +11,7 @@
  */
 #include <string.h>
 
-#include "core/points_io.h"
+#include "core/point_files.h"
 #include "core/status.h"
 #include "patterns/files/files.h"
 #include "patterns/patterns.h"

@@ -28,7 +28,7 @@
 #include <stdlib.h>
 
 #include "core/elementary.h"
-#include "core/points_io.h"
+#include "core/point_files.h"
 #include "core/random.h"
 #include "core/status.h"
 #include "patterns/masks/mask_tile.h"

@@ -38,6 +38,7 @@
 #include "core/status.h"
 #include "core/sum.h"
 #include "image/coherence.h"
+#include "image/fourier.h"
 #include "image/image.h"
 #include "stats/stats.h"
 

@@ -5,7 +5,7 @@
  * 16 at a time; core/dft.c transforms other lines one by one. This takes O(n log n) for n pixels, whatever the width
  * and the height, and memory of 16 bytes for each frequency and for about 64 lines.
  */
-#include "image/coherence.h"
+#include "image/fourier.h"
 
 #include <math.h>
 #include <stdlib.h>

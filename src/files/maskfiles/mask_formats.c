@@ -11,7 +11,7 @@
 
 #include "core/c_locale.h"
 #include "core/files.h"
-#include "core/points_io.h"
+#include "core/point_files.h"
 #include "core/status.h"
 #include "image/formats.h"
 #include "masks/masks.h"

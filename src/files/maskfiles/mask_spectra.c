@@ -15,7 +15,7 @@
 
 #include "core/elementary.h"
 #include "core/status.h"
-#include "image/coherence.h"
+#include "image/fourier.h"
 #include "masks/masks.h"
 
 enum { MOST_RINGS = 1024, MOST_BINS = 1 << 16 };

@@ -97,7 +97,7 @@ static char *utf8(const wchar_t *wide)
 /* ---- Files --------------------------------------------------------------------------------------------- */
 
 /* since_1601: in units of 100 ns */
-static struct timespec time_of(int64_t since_1601)
+static struct timespec unix_time(int64_t since_1601)
 {
     const int64_t since_1970 = since_1601 - INT64_C(116444736000000000);
     return (struct timespec){.tv_sec = (time_t)(since_1970 / 10000000),
@@ -123,13 +123,13 @@ static int describe(HANDLE file, struct koksma__stat *info)
     info->st_dev = about.dwVolumeSerialNumber;
     info->st_ino = (uint64_t)about.nFileIndexHigh << 32 | about.nFileIndexLow;
     info->st_size = (int64_t)((uint64_t)about.nFileSizeHigh << 32 | about.nFileSizeLow);
-    info->st_mtim = time_of(times.LastWriteTime.QuadPart);
-    info->st_ctim = time_of(times.ChangeTime.QuadPart);
+    info->st_mtim = unix_time(times.LastWriteTime.QuadPart);
+    info->st_ctim = unix_time(times.ChangeTime.QuadPart);
     return 0;
 }
 
 /* Opens a file or folder to ask about it; flags: those of CreateFile, beside what folders need. */
-static HANDLE look_at(const char *path, DWORD flags)
+static HANDLE open_to_look(const char *path, DWORD flags)
 {
     wchar_t *wide = koksma__wide_path(path);
     HANDLE file = INVALID_HANDLE_VALUE;
@@ -146,7 +146,7 @@ static HANDLE look_at(const char *path, DWORD flags)
 
 static int stat_of(const char *path, DWORD flags, struct koksma__stat *info)
 {
-    HANDLE file = look_at(path, flags);
+    HANDLE file = open_to_look(path, flags);
     const int code = file == INVALID_HANDLE_VALUE ? -1 : describe(file, info);
     if (file != INVALID_HANDLE_VALUE) {
         CloseHandle(file);
@@ -252,7 +252,7 @@ int koksma__rename(const char *from, const char *to)
 char *koksma__realpath(const char *path, char *out)
 {
     enum { MOST = 1 << 15 };
-    HANDLE file = look_at(path, 0);
+    HANDLE file = open_to_look(path, 0);
     wchar_t *wide = file == INVALID_HANDLE_VALUE ? NULL : malloc(MOST * sizeof *wide);
     char *real = NULL;
     if (wide) {
@@ -481,9 +481,9 @@ char *koksma__this_file(void)
 static bool matches(const char *pattern, const char *name)
 {
     for (; *pattern && *pattern != '*'; pattern++, name++) {
-        const bool any = *pattern == '?' && *name;
+        const bool wild = *pattern == '?' && *name;
         pattern += *pattern == '\\' && pattern[1];
-        if (!any && *pattern != *name) {
+        if (!wild && *pattern != *name) {
             return false;
         }
     }
@@ -510,7 +510,7 @@ static bool add_path(koksma__glob_t *found, const char *path)
     return copy != NULL;
 }
 
-static bool walk(const char *folder, const char *pattern, koksma__glob_t *found);
+static bool glob_in(const char *folder, const char *pattern, koksma__glob_t *found);
 
 /* Goes on with the rest of a pattern at `path`, which is there; at its end, adds it. */
 static bool go_on(const char *path, const char *rest, koksma__glob_t *found)
@@ -521,11 +521,11 @@ static bool go_on(const char *path, const char *rest, koksma__glob_t *found)
         return add_path(found, path);
     }
     const bool fits = snprintf(folder, sizeof folder, "%s/", path) < (int)sizeof folder;
-    return !fits || koksma__stat(path, &info) || !S_ISDIR(info.st_mode) || walk(folder, rest + 1, found);
+    return !fits || koksma__stat(path, &info) || !S_ISDIR(info.st_mode) || glob_in(folder, rest + 1, found);
 }
 
 /* Adds what matches `pattern`, relative to `folder`, which is empty or ends in a slash. Returns false without memory. */
-static bool walk(const char *folder, const char *pattern, koksma__glob_t *found)
+static bool glob_in(const char *folder, const char *pattern, koksma__glob_t *found)
 {
     char part[PATH_MAX], path[PATH_MAX];
     WIN32_FIND_DATAW entry;
@@ -533,7 +533,7 @@ static bool walk(const char *folder, const char *pattern, koksma__glob_t *found)
     bool kept = true;
     if (!length && *pattern == '/') { /* the root, or two slashes */
         snprintf(path, sizeof path, "%s/", folder);
-        return walk(path, pattern + 1, found);
+        return glob_in(path, pattern + 1, found);
     }
     snprintf(part, sizeof part, "%.*s", (int)length, pattern);
     if (!strpbrk(part, "*?\\")) {
@@ -572,7 +572,7 @@ int koksma__glob(const char *pattern, int flags, void *unused, koksma__glob_t *f
 {
     (void)unused;
     *found = (koksma__glob_t){0};
-    if (!walk("", pattern, found)) {
+    if (!glob_in("", pattern, found)) {
         koksma__globfree(found);
         return GLOB_NOSPACE;
     }

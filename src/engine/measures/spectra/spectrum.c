@@ -9,8 +9,8 @@
 #include <stdlib.h>
 
 #include "core/elementary.h"
+#include "core/point_files.h"
 #include "core/points.h"
-#include "core/points_io.h"
 #include "core/status.h"
 
 /* Constants in the definitions of the quality numbers, which koksma/spectrum.h explains. */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/points_io.h"
+#include "core/point_files.h"
 #include "core/status.h"
 #include "patterns/patterns.h"
 

@@ -20,7 +20,7 @@
 #include "core/hash.h"
 #include "core/json_writer.h"
 #include "core/status.h"
-#include "optimise/optimise.h"
+#include "optimise/search.h"
 #include "json/json.h"
 
 enum { NUMBER = 32, MOST_LISTED = 512 };

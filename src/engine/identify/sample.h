@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the files of koksma_identify share: the points under test, and the digital sequences with which they are
    compared. Each section is the interface of the file of its name. */
-#ifndef KOKSMA_IDENTIFY_IDENTIFY_H
-#define KOKSMA_IDENTIFY_IDENTIFY_H
+#ifndef KOKSMA_IDENTIFY_SAMPLE_H
+#define KOKSMA_IDENTIFY_SAMPLE_H
 
 #include <koksma/identify.h>
 

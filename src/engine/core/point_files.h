@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Files of points, and NumPy's format .npy, of which this is the only writer: the header, and numbers as little-endian
    bytes on any machine. */
-#ifndef KOKSMA_CORE_POINTS_IO_H
-#define KOKSMA_CORE_POINTS_IO_H
+#ifndef KOKSMA_CORE_POINT_FILES_H
+#define KOKSMA_CORE_POINT_FILES_H
 
 #include <koksma/koksma.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the searches share. Each section is the interface of the file of its name; that of methods is what every method
    may use. */
-#ifndef KOKSMA_OPTIMISE_OPTIMISE_H
-#define KOKSMA_OPTIMISE_OPTIMISE_H
+#ifndef KOKSMA_OPTIMISE_SEARCH_H
+#define KOKSMA_OPTIMISE_SEARCH_H
 
 #include <koksma/optimise.h>
 
