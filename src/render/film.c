@@ -33,7 +33,7 @@
  * have the same variance. For equal weights it is n / (n - 1); for a single sample it is 0 / 0, and the layer is 0.
  * The same formula with w = v and W = n is the estimate for samples drawn from a filter with negative lobes.
  */
-#include "render/render.h"
+#include "render/one_image.h"
 
 #include <math.h>
 #include <stdlib.h>

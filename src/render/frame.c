@@ -13,7 +13,7 @@
 #include "core/elementary.h"
 #include "core/status.h"
 #include "render/accel/accel.h"
-#include "render/render.h"
+#include "render/one_image.h"
 #include "render/samples/samples.h"
 
 /* ---- The scene in floats ------------------------------------------------------------------------------ */

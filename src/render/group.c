@@ -4,7 +4,7 @@
  * group is as many whole pixels as fit, at least one. The samples of the last pixel are repeated until the lanes are
  * full, so that loops over lanes have no remainder.
  */
-#include "render/render.h"
+#include "render/one_image.h"
 
 #include <stdlib.h>
 #include <string.h>

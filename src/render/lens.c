@@ -14,7 +14,7 @@
  * 4, ...; for four blades both maps together are a similarity, so that strata remain squares.
  */
 #include "core/elementary.h"
-#include "render/render.h"
+#include "render/one_image.h"
 
 #include <math.h>
 

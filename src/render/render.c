@@ -10,8 +10,8 @@
 
 #include "core/parallel.h"
 #include "core/status.h"
+#include "render/one_image.h"
 #include "render/pipelines/pipelines.h"
-#include "render/render.h"
 #include "render/samples/samples.h"
 
 enum { SAMPLES_A_TASK = 1 << 15, SAMPLES_A_LOOK = 1 << 12 };

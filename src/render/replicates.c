@@ -13,7 +13,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "render.h"
+#include "render/one_image.h"
 #include "samples/uses.h"
 #include "stats/stats.h"
 

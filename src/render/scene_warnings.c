@@ -4,7 +4,7 @@
  * emit nothing, parts of a model file that are not supported. Warnings are not stored: to find warning i, all checks
  * run in a fixed order and the warnings that they find are counted.
  */
-#include "render/render.h"
+#include "render/one_image.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Lens, shutter and layers, against closed forms. */
-#include "render/render.h"
+#include "render/one_image.h"
 #include "rendering.h"
 
 /* ---- Lens and shutter ----------------------------------------------------------------------------------- */

@@ -5,8 +5,8 @@
 
 #include "rendering.h"
 
+#include "render/one_image.h"
 #include "render/pipelines/pipelines.h"
-#include "render/render.h"
 #include "render/samples/samples.h"
 
 enum { SIDE = 16, EDGE = 3 /* beyond which splatted pixels have all their samples */ };

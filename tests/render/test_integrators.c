@@ -7,8 +7,8 @@
  */
 #include "kinds.h"
 #include "render/materials/materials.h"
+#include "render/one_image.h"
 #include "render/pipelines/pipelines.h"
-#include "render/render.h"
 #include "render/samples/samples.h"
 
 #define CAMERA "'camera': {'eye': [0, 0.3, 3], 'target': [0, 0, 0], 'fov_deg': 12}"

@@ -2,7 +2,7 @@
 /* Work in parts: rows of a picture have the bits of the whole one. */
 #include <string.h>
 
-#include "render/render.h"
+#include "render/one_image.h"
 #include "rendering.h"
 
 TEST_CASE(rows_have_the_bits_of_the_whole)

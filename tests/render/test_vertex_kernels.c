@@ -4,7 +4,7 @@
  * checks, and where they scatter (test_bsdfs): all instruction sets give the same bits, and misses get nothing.
  */
 #include "lanes.h"
-#include "render/render.h"
+#include "render/one_image.h"
 
 enum { ROUNDS = 200 };
 

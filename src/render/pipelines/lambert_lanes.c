@@ -14,8 +14,8 @@
 
 #include "core/capacity.h"
 #include "core/status.h"
+#include "render/one_image.h"
 #include "render/pipelines/pipelines.h"
-#include "render/render.h"
 #include "render/samples/samples.h"
 
 typedef struct scratch {

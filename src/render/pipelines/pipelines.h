@@ -7,7 +7,7 @@
 #define KOKSMA_RENDER_PIPELINES_PIPELINES_H
 
 #include "core/status.h"
-#include "render/render.h"
+#include "render/one_image.h"
 
 /* All pipelines, terminated by NULL. */
 extern const koksma__pipeline *const koksma__pipelines[];

@@ -41,7 +41,7 @@
 #include <koksma/image.h>
 
 #include "core/status.h"
-#include "render/render.h"
+#include "render/one_image.h"
 #include "render/samples/samples.h"
 #include "render/scene_images.h"
 #include "render/vector3.h"

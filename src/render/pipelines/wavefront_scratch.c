@@ -11,8 +11,8 @@
 #include "core/capacity.h"
 #include "core/platform/system.h"
 #include "core/status.h"
+#include "render/one_image.h"
 #include "render/pipelines/pipelines.h"
-#include "render/render.h"
 
 void koksma__wavefront_close(void *opened)
 {

@@ -8,7 +8,7 @@
  * (koksma__xml_name_unread). The table of plug-ins (mitsuba_names.c) says
  * which properties there are. Long because all objects share the references and marks of one reader.
  */
-#include "scene/mitsuba.h"
+#include "scene/mitsuba_reader.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
  * becomes of them. Names of Mitsuba 0.6 and 2 are here, too. A parameter that no row has is named as ignored
  * (koksma__xml_name_unread). Also the materials that have a name: conductors, and indices of refraction.
  */
-#include "scene/mitsuba.h"
+#include "scene/mitsuba_reader.h"
 
 #include <string.h>
 #include <strings.h>

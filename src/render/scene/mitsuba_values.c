@@ -4,7 +4,7 @@
  * understand to its end: a value that is read in part would change the scene without a word. Mitsuba 3 itself is as
  * strict in nearly everything; what earlier versions wrote is read, too: "5000K" and "#ff8000".
  */
-#include "scene/mitsuba.h"
+#include "scene/mitsuba_reader.h"
 
 #include <math.h>
 #include <stdio.h>

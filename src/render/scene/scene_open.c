@@ -16,9 +16,9 @@
 #include "core/status.h"
 #include "meshes/mesh_file.h"
 #include "render/description_build.h"
-#include "render/render.h"
+#include "render/one_image.h"
 #include "render/scene_images.h"
-#include "scene/mitsuba.h"
+#include "scene/mitsuba_reader.h"
 #include "scene/pbrt.h"
 #include "scene/scenes_embedded.h"
 

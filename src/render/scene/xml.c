@@ -6,7 +6,7 @@
  * declaration stops the parser before any entity is declared. Readers mark what they use, so that
  * koksma__xml_name_unread() finds everything that no reader knows: misspelt names above all.
  */
-#include "scene/mitsuba.h"
+#include "scene/mitsuba_reader.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -20,7 +20,7 @@
 #include "core/status.h"
 #include "image/formats.h"
 #include "image/image.h"
-#include "render/render.h"
+#include "render/one_image.h"
 #include "study/plan/made_by.h"
 #include "study/run/study.h"
 

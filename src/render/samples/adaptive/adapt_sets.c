@@ -33,7 +33,7 @@
 #include "core/status.h"
 #include "kernels/kernels.h"
 #include "patterns/files/files.h"
-#include "render/render.h"
+#include "render/one_image.h"
 #include "render/samples/adaptive/adaptive.h"
 #include "render/samples/samples.h"
 #include "render/vector3.h"

@@ -34,7 +34,7 @@
 #include <string.h>
 
 #include "core/status.h"
-#include "render/render.h"
+#include "render/one_image.h"
 #include "render/vector3.h"
 
 /* The largest number of strata in the image; they take 3.5 GiB. */

@@ -13,7 +13,7 @@
 
 #include <koksma/adaptive.h>
 
-#include "render/render.h"
+#include "render/one_image.h"
 #include "render/samples/samples.h"
 
 /* The demand of a pixel for more samples. */

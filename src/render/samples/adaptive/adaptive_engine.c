@@ -13,8 +13,8 @@
 #include "core/parallel.h"
 #include "core/spec.h"
 #include "core/status.h"
+#include "render/one_image.h"
 #include "render/pipelines/pipelines.h"
-#include "render/render.h"
 #include "render/samples/adaptive/adaptive.h"
 #include "render/samples/samples.h"
 

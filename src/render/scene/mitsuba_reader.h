@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The parts of the reader of Mitsuba's scenes: an XML text as a tree of elements, with included files inserted and $names
    replaced (xml.c), the values of elements (mitsuba_values.c), and the objects (mitsuba.c). */
-#ifndef KOKSMA_SCENE_MITSUBA_H
-#define KOKSMA_SCENE_MITSUBA_H
+#ifndef KOKSMA_SCENE_MITSUBA_READER_H
+#define KOKSMA_SCENE_MITSUBA_READER_H
 
 #include "scene/import.h"
 

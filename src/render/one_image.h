@@ -4,8 +4,8 @@
  * KOKSMA__BLOCK lanes and are traced by one of the pipelines (pipelines/pipelines.c); and the film, which turns the
  * values of samples into pixels.
  */
-#ifndef KOKSMA_RENDER_RENDER_H
-#define KOKSMA_RENDER_RENDER_H
+#ifndef KOKSMA_RENDER_ONE_IMAGE_H
+#define KOKSMA_RENDER_ONE_IMAGE_H
 
 #include <pthread.h>
 
