@@ -7,7 +7,6 @@
  * Source: Shirley 1991, section 5.5.1; Mitchell 1992 calls it Poisson.
  * Known exactly: E(S^2) = (2^-dim - 3^-dim) / n for the L2 star discrepancy S.
  */
-#include "core/random.h"
 #include "patterns/grids/grids.h"
 #include "patterns/patterns.h"
 

@@ -5,6 +5,7 @@
 
 #include <koksma/koksma.h>
 
+#include "core/random.h" /* the purposes */
 #include "core/visibility.h"
 
 /* ---- Fill ------------------------------------------------------------------------------------------------ */
