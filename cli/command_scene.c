@@ -9,6 +9,8 @@
 #include "cli.h"
 #include "rendering.h"
 
+enum { MOST_LOOKED_AT = 1000000 }; /* triangles of a scene that is rendered small: a tree of more takes seconds */
+
 static int run(const cli_args *args)
 {
     koksma_scene *scene;
@@ -24,7 +26,9 @@ static int run(const cli_args *args)
     bool is_black = false;
     koksma_render_options options;
     koksma_render_options_init(&options, scene);
-    status = odd && !counts.lights ? KOKSMA_OK : cli_look(args, args->operands[1], scene, &options, &is_black);
+    if (!(odd && !counts.lights) && counts.triangles <= MOST_LOOKED_AT) {
+        status = cli_look(args, args->operands[1], scene, &options, &is_black);
+    }
     cli_row("scene %s shapes %zu meshes %zu placements %zu triangles %zu materials %zu lights %zu "
             "media %zu",
             args->operands[1], counts.shapes, counts.meshes, counts.placements, counts.triangles, counts.materials,
@@ -48,9 +52,9 @@ const cli_command cli_command_scene = {
     .synopsis = "check SCENE",
     .details = "SCENE is a name, a JSON file (docs/scenes.md), a mesh file, or a scene of pbrt-v4 (.pbrt) or "
                "Mitsuba (.xml). An error names file, line, field and reason (exit code 3). A warning reports "
-               "something odd that can still be rendered, or that a small picture is black (exit code 1). stdout "
-               "lists what the scene contains (spp: "
-               "samples a pixel that its own sampler asks for).\n",
+               "something odd that can still be rendered, or that a small picture of up to a million triangles is "
+               "black (exit code 1). stdout lists what the scene contains (spp: samples a pixel that its own sampler "
+               "asks for).\n",
     .examples = "koksma scene check ball\n",
     .options = options,
     .run = run,

@@ -148,7 +148,7 @@ def texts(bench):
     triangle = 'Shape"trianglemesh""point3 P"[0 0 0 1 0 0 0 1 0]\n'
     for what, one in (("shapes in an object", 'Shape"disk"\n'), ("triangles in an object", triangle),
                       ("coordinate systems", 'CoordinateSystem""\n'), ("objects", 'ObjectBegin""ObjectEnd\n'),
-                      ("materials", 'MakeNamedMaterial""\n')):
+                      ("materials", 'MakeNamedMaterial"""string type""diffuse"\n')):
         bench.put("part", one * (60000 // len(one)))
         bench.put("parts", 'Include "part"\n' * 60)
         around = ('ObjectBegin"a"\n', "ObjectEnd\n") if "in an object" in what else ("", "")
