@@ -8,9 +8,7 @@
  * the same name is never opened. A process that is killed while it writes leaves its temporary file, which no later run
  * touches.
  */
-#ifdef __linux__
 #define _DEFAULT_SOURCE /* getentropy */
-#endif
 #include "core/files.h"
 
 #include <errno.h>
